@@ -146,6 +146,14 @@ std::optional<BodyLengths> CameraPair::take_lengths() {
   return std::exchange(new_lengths_, std::nullopt);
 }
 
+void CameraPair::reset_body() {
+  moments_.clear();
+  checked_ = 0;
+  is_searching_ = is_measuring_ = has_told_lengths_ = false;
+  search_from_ = kFewestMoments;
+  new_lengths_.reset();
+}
+
 void CameraPair::follow(const DancerSize& size) {
   if (is_measuring_) {
     if (lengths_.step(moments_, other_, kMomentsInCall)) finish_lengths(size);

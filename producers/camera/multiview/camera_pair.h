@@ -52,6 +52,8 @@ class CameraPair {
   int moves() const { return moves_; }
   // The dancer's lengths by both cameras, once after each placement.
   std::optional<BodyLengths> take_lengths();
+  // Another dancer, with other lengths.
+  void reset_body();
   // Moments with a moving dancer that both cameras saw, of kFewestMoments that a search needs.
   static constexpr int kFewestMoments = 40;
   int moments() const { return static_cast<int>(moments_.count()); }
@@ -84,7 +86,6 @@ class CameraPair {
   std::uint64_t search_from_ = kFewestMoments;
   // The lengths of the pose that was found, before it counts.
   bool is_measuring_ = false;
-  bool has_fitted_ = false;
   std::uint32_t calls_ = 0;
   std::uint64_t checked_ = 0;  // moments whose spread was looked at
   double recent_spread_ = 0.0, usual_spread_ = 0.0;

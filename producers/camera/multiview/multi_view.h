@@ -34,6 +34,10 @@ class MultiView {
   // Lengths of the body that two cameras measured, once after each placement.
   std::optional<BodyLengths> take_lengths();
 
+  // Another dancer: placements stay, lengths are measured again.
+  void reset_body() {
+    for (const auto& other : others_) other->pair.reset_body();
+  }
   const CameraPair& pair(std::size_t camera) const { return others_[camera]->pair; }
   // The first camera's lens, as pictures have another size.
   void set_first(const Pinhole& first) { first_ = first; }

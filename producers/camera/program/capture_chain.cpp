@@ -27,14 +27,19 @@ void CaptureChain::see(const Frame& frame, const cv::Mat* right) {
   // The solver smooths too, and smoothing twice would double the delay.
   const BodyLandmarks& seen = estimator_->unfiltered();
   if (seen.found) {
-    if (last_seen_.is_set() && frame.capture_time - last_seen_ > kSomebodyElse) solver_->reset();
+    if (last_seen_.is_set() && frame.capture_time - last_seen_ > kSomebodyElse) {
+      solver_->reset();
+      if (others_) others_->reset_body();
+    }
     last_seen_ = frame.capture_time;
     ++stats_.seen;
   }
   std::optional<DepthHint> depth;
   if (stereo_ && right && seen.found) depth = stereo_->hint(frame.image, *right, seen);
+  OtherViews views;
+  if (others_) views = others_->see_first(seen, *solver_);
   Pose pose;
-  if (!solver_->solve(seen, depth, pose)) return;
+  if (!solver_->solve(seen, depth, pose, views)) return;
   pose.sequence = next_sequence_++;
   pose.clock_id = this_clock_id();
   pose.capture_time = frame.capture_time;

@@ -15,6 +15,7 @@
 #include "core/base/histogram.h"
 #include "producers/camera/estimator/pose_estimator.h"
 #include "producers/camera/frame.h"
+#include "producers/camera/program/other_cameras.h"
 #include "producers/camera/solver/body_solver.h"
 #include "producers/camera/stereo/stereo_depth.h"
 #include "producers/capture_sink.h"
@@ -33,6 +34,8 @@ class CaptureChain {
  public:
   CaptureChain(const GuestId& guest, CaptureSink& sink, std::unique_ptr<PoseEstimator> estimator,
                std::unique_ptr<BodySolver> solver);
+  // Further cameras, which must outlive it.
+  void enable_others(OtherCameras& others) { others_ = &others; }
   void enable_stereo(std::unique_ptr<StereoDepth> stereo) { stereo_ = std::move(stereo); }
 
   // `right` is the other camera's picture of the same moment, or null.
@@ -57,6 +60,7 @@ class CaptureChain {
   std::unique_ptr<PoseEstimator> estimator_;
   std::unique_ptr<BodySolver> solver_;
   std::unique_ptr<StereoDepth> stereo_;
+  OtherCameras* others_ = nullptr;
   const BodyLandmarks* body_;  // the estimator's
   CaptureStats stats_;
   std::uint32_t next_sequence_;

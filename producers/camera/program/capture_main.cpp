@@ -20,6 +20,7 @@ constexpr const char* kExamples = R"(Examples:
   dance capture --height 1.68 --mirror            as tall as she is; the stage as a mirror
   dance capture --calibrate camera.yml --board 9x6 --square 25
   dance capture --calibration camera.yml
+  dance capture /dev/video0 --also /dev/video2 --height 1.68    two webcams, no board
   dance capture zed --calibration SN1234.conf     two cameras side by side
   dance capture --record takes/first              video beside poses
 )";
@@ -30,6 +31,8 @@ Result<void> run_capture(const CaptureOptions& options) {
     std::fputs((options.wants_json ? camera_json(cameras) : camera_table(cameras)).c_str(), stdout);
     return {};
   }
+  if (!options.also.empty() && (options.only_checks || !options.calibrate_file.empty()))
+    return fail("--also is for dancing: --check and --calibrate look through one camera");
   if (options.only_checks) {
     DANCE_TRY(auto check, CaptureCheck::open(options));
     return check->run();
@@ -85,6 +88,16 @@ int main(int argc, char** argv) {
            "of the lens, or of two cameras: what --calibrate wrote, OpenCV's YAML, or a ZED's "
            "SN<serial>.conf");
   line.add("--right", options.right, "the right camera, where it is a device of its own");
+  line.add("--also", options.also,
+           "another camera or video of the same dancer from another side, without calibration; can "
+           "be given three times")
+      .one_each_time();
+  line.add("--also-calibration", options.also_calibration,
+           "of the lens of each --also, in their order")
+      .one_each_time();
+  line.add("--also-fov", options.also_fov_deg, "degrees that pictures of each --also are wide")
+      .one_each_time()
+      .range(20.0, 150.0);
   line.add("--fov", options.fov_deg,
            "degrees that the picture is wide, where no calibration says it")
       .range(20.0, 150.0)

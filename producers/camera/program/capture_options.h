@@ -7,6 +7,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "producers/camera/estimator/pose_estimator.h"
 #include "producers/camera/v4l2/video_mode.h"
@@ -16,6 +17,9 @@ namespace dance {
 struct CaptureOptions {
   std::string source;  // camera, video, folder; "" = the first camera
   std::string right;   // the right camera, where it is a device of its own
+  std::vector<std::string> also;  // further cameras, anywhere around the dancer
+  std::vector<std::string> also_calibration;  // of their lenses, in the same order
+  std::vector<double> also_fov_deg;           // where these are not given
   std::string guest = "alice";
   std::string bus;
   double seconds = 0.0;  // 0 = until stopped

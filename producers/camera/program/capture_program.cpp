@@ -18,6 +18,31 @@ constexpr Duration kFrameTimeout = Duration::ms(50);
 constexpr Duration kSilence = Duration::s(3);
 constexpr Duration kTroubleEvery = Duration::s(1);
 
+nlohmann::ordered_json also_json(const OtherCameras& others) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  for (const OtherCameraReport& camera : others.reports()) {
+    nlohmann::ordered_json one{{"source", camera.name},
+                               {"pictures", camera.pictures},
+                               {"seen", camera.seen},
+                               {"placed", camera.placement.has_value()},
+                               {"moves", camera.moves}};
+    if (const auto& placement = camera.placement) {
+      const RelativePose& pose = placement->pose;
+      const Eigen::Vector3d p_m = -(pose.R_BA.transpose() * pose.p_BA) * placement->baseline_m;
+      const Eigen::Quaterniond R_AB(pose.R_BA.transpose());
+      one["p_AB_m"] = {p_m.x(), p_m.y(), p_m.z()};
+      one["R_AB_xyzw"] = {R_AB.x(), R_AB.y(), R_AB.z(), R_AB.w()};
+      one["angle_deg"] = placement->angle_rad * kDegrees;
+      one["turn_sd_deg"] = placement->turn_sd_rad * kDegrees;
+      one["later_ms"] = 1e3 * pose.later_s;
+      one["spread"] = placement->spread;
+    }
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<CaptureProgram>> CaptureProgram::open(const CaptureOptions& options) {
@@ -55,6 +80,11 @@ Result<void> CaptureProgram::open_chain() {
     sink = recording_.get();
   }
   chain_ = std::make_unique<CaptureChain>(guest_, *sink, std::move(estimator), make_solver());
+  if (!options_.also.empty()) {
+    if (input_->cameras() > 1) return fail("--also and a stereo camera: give one of them");
+    DANCE_TRY(others_, OtherCameras::open(options_, input_->camera()));
+    chain_->enable_others(*others_);
+  }
   if (input_->rig()) chain_->enable_stereo(std::make_unique<StereoDepth>(*input_->rig()));
   poller_->watch(bus_->fd(), [bus = bus_.get()](MonoTime now) { bus->drain(now); });
   return {};
@@ -84,6 +114,7 @@ void CaptureProgram::run() {
   if (options_.seconds > 0.0) end_ = begin_ + Duration::seconds(options_.seconds);
   CaptureFrame seen;
   bool is_over = false;
+  if (others_) others_->start();
   while (!is_over && !poller_->is_stopped()) {
     switch (input_->next(kFrameTimeout, seen)) {
       case FrameState::kFrame:
@@ -131,6 +162,7 @@ bool CaptureProgram::has_usual_size(const cv::Mat& picture) {
              picture.rows);
   chain_->use(make_solver());
   chain_->restart();
+  if (others_) others_->set_first(input_->camera());
   return true;
 }
 
@@ -171,6 +203,8 @@ void CaptureProgram::say_trouble(MonoTime now) {
   if (recording_) say_once(has_said_recording_, recording_->trouble());
   if (preview_) say_once(has_said_preview_, preview_->trouble());
   say_once(has_said_input_, input_->trouble());
+  if (const std::string news = others_ ? others_->news() : ""; !news.empty())
+    talk::info("{}", news);
   if (chain_->stereo()) say_once(has_said_stereo_, chain_->stereo()->trouble());
 }
 
@@ -215,6 +249,7 @@ void CaptureProgram::report() const {
       {"camera_pitch_deg", stand.pitch_rad * 180.0 / std::numbers::pi},
       {"standing_height_m", standing_height_m(chain_->solver().skeleton())}};
   if (chain_->stereo()) json["stereo_hints"] = chain_->stereo()->counters().hinted;
+  if (others_) json["also"] = also_json(*others_);
   std::printf("%s\n", json.dump().c_str());
 }
 

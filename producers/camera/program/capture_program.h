@@ -46,6 +46,7 @@ class CaptureProgram {
   std::unique_ptr<Bus> bus_;
   std::unique_ptr<PortCaptureSink> bus_sink_;
   std::unique_ptr<CaptureRecording> recording_;
+  std::unique_ptr<OtherCameras> others_;
   std::unique_ptr<CaptureChain> chain_;
   std::unique_ptr<Preview> preview_;
   DancerAdvice advice_;
