@@ -71,21 +71,13 @@ std::vector<Pose> danced_by(const Skeleton& skeleton, const CodecTake& take) {
   return poses;
 }
 
-// One dance, its two cameras, and what was found of them.
-struct Stage {
-  CaptureScene first;
-  EyeScene other;
-  EyeScene moved;  // from half-way on
-  double half_s = 1e9;
-};
-
-Stage make_stage(const SeveralCase& what, const CodecTake& recorded, std::uint64_t seed) {
+SeveralStage make_stage(const SeveralCase& what, const CodecTake& recorded, std::uint64_t seed) {
   CodecTake take = recorded;
   if (!what.keeps_bodies) {
     take.skeleton = dancer_of(seed);
     take.poses = danced_by(take.skeleton, recorded);
   }
-  Stage stage;
+  SeveralStage stage;
   SceneCamera camera;
   camera.distance_m = what.distance_m;
   SceneErrors errors = what.is_exact ? no_errors() : SceneErrors();
@@ -165,7 +157,7 @@ struct Found {
   int moves = 0;
 };
 
-void judge_placement(const Stage& stage, const CameraPair& pair, double since_s, Found& found) {
+void judge_placement(const SeveralStage& stage, const CameraPair& pair, double since_s, Found& found) {
   const auto& placement = pair.placement();
   if (!placement) return;
   if (found.settled_s < 0.0) found.settled_s = since_s;
@@ -183,7 +175,7 @@ void judge_placement(const Stage& stage, const CameraPair& pair, double since_s,
   ++found.placed_frames;
 }
 
-Found run_stage(const Stage& stage, const SeveralCase& what, bool has_two, bool is_told,
+Found run_stage(const SeveralStage& stage, const SeveralCase& what, bool has_two, bool is_told,
                 double placed_s) {
   SolverOptions options;
   if (is_told) options.height_m = stage.first.height_m;
@@ -235,7 +227,7 @@ Found run_stage(const Stage& stage, const SeveralCase& what, bool has_two, bool 
   return found;
 }
 
-Joints truth_of(const Stage& stage, std::size_t f) {
+Joints truth_of(const SeveralStage& stage, std::size_t f) {
   Joints joints;
   for (std::size_t i = 0; i < joints.size(); ++i)
     joints[i] = stage.first.R_WC.transpose() *
@@ -244,7 +236,7 @@ Joints truth_of(const Stage& stage, std::size_t f) {
   return joints;
 }
 
-void judge_run(const Stage& stage, const SeveralCase& what, const Found& found, double from_s,
+void judge_run(const SeveralStage& stage, const SeveralCase& what, const Found& found, double from_s,
                double placed_s, Sums& sums) {
   for (std::size_t f = 1; f < found.joints_C_m.size(); ++f) {
     const double since_s = static_cast<double>(f) / stage.first.hz;
@@ -308,14 +300,20 @@ std::vector<SeveralCase> several_cases() {
 }
 
 SeveralScore evaluate_several(const SeveralCase& what, const std::vector<CodecTake>& takes) {
+  std::vector<SeveralStage> stages;
+  for (std::size_t i = 0; i < takes.size(); ++i)
+    stages.push_back(make_stage(what, takes[i], 1000 + i));
+  return evaluate_stages(what, stages);
+}
+
+SeveralScore evaluate_stages(const SeveralCase& what, const std::vector<SeveralStage>& stages) {
   SeveralScore score;
   score.what = what;
   std::array<Sums, kSeenByCount> sums;
   double settled_s = 0.0, again_s = 0.0, turn = 0.0, place = 0.0, later = 0.0;
   std::size_t placed_frames = 0;
   int again = 0;
-  for (std::size_t i = 0; i < takes.size(); ++i) {
-    const Stage stage = make_stage(what, takes[i], 1000 + i);
+  for (const SeveralStage& stage : stages) {
     ++score.takes;
     SeveralCase clear = what;
     clear.covers_first = clear.covers_second = false;

@@ -65,6 +65,14 @@ struct SeveralScore {
   std::size_t frames = 0;
 };
 
+// A dance before its two cameras, and what their networks saw.
+struct SeveralStage {
+  CaptureScene first;
+  EyeScene other;
+  EyeScene moved;  // from half-way on
+  double half_s = 1e9;
+};
+SeveralScore evaluate_stages(const SeveralCase& what, const std::vector<SeveralStage>& stages);
 // Takes of 120 Hz.
 SeveralScore evaluate_several(const SeveralCase& what, const std::vector<CodecTake>& takes);
 std::string several_table(const std::vector<SeveralScore>& scores);
