@@ -14,7 +14,7 @@ constexpr double kStartsApart_s = 0.05;
 constexpr double kMostLater_s = 0.25;
 constexpr int kHeldIterations = 4, kFreeIterations = 6, kLastIterations = 12;
 // What a placement has to be.
-constexpr double kMostTurnSd_rad = 0.02, kMostLaterSd_s = 0.006, kMostSpread = 6.0;
+constexpr double kMostTurnSd_rad = 0.055, kMostLaterSd_s = 0.006, kMostSpread = 6.0;
 constexpr double kLeastMet = 0.85;
 constexpr double kLeastAngle_rad = 0.1, kLeastBaseline_m = 0.15, kMostBaseline_m = 25.0;
 // A search that found nothing is repeated after so many further moments.

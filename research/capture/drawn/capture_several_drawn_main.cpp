@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
       .range(-150.0, 150.0)
       .shows_default();
   line.add("--guest", wishes.guest, "whose looks the dancer has").guest_name().shows_default();
-  line.add("--keep", wishes.folder, "keeps the pictures in this folder");
+  line.add("--keep", wishes.folder, "keeps the pictures in this folder; those that are there are not drawn again");
   line.add_choice<dance::PoseModel>("--model", wishes.model,
                                     {{"lite", dance::PoseModel::kLite},
                                      {"full", dance::PoseModel::kFull},

@@ -12,6 +12,7 @@
 #include "core/pose/interpolate.h"
 #include "formats/avatar/mannequin_model.h"
 #include "formats/body/guest_look.h"
+#include "producers/camera/files/bgr_picture.h"
 #include "producers/salsa/salsa_dancer.h"
 #include "viewer/gl/offscreen.h"
 #include "viewer/gl/picture.h"
@@ -104,17 +105,22 @@ class DrawnCamera {
   Vector3d p_WC_m() const { return camera_.eye_W_m().cast<double>(); }
 
   Result<BodyLandmarks> look(StageRenderer& renderer, const SceneState& scene, MonoTime stamp) {
+    const std::string file = fmt::format("{}/{:05}.png", folder_, ++pictures_);
+    Frame frame;
+    frame.capture_time = stamp;
+    if (!folder_.empty() && std::filesystem::exists(file)) {
+      DANCE_TRY(frame.image, read_bgr_picture(file));
+      estimator_->estimate(frame);
+      return estimator_->unfiltered();
+    }
     if (auto drawn = renderer.draw(scene, camera_, kWidth_px, kHeight_px); !drawn)
       return tl::make_unexpected(drawn.error());
     Picture picture = read_bound_framebuffer(kWidth_px, kHeight_px);
-    const std::string file = fmt::format("{}/{:05}.png", folder_, ++pictures_);
     if (!folder_.empty())
       if (auto written = write_png(file, picture); !written)
         return tl::make_unexpected(written.error());
-    Frame frame;
     cv::cvtColor(cv::Mat(kHeight_px, kWidth_px, CV_8UC3, picture.rgb.data()), frame.image,
                  cv::COLOR_RGB2BGR);
-    frame.capture_time = stamp;
     estimator_->estimate(frame);
     return estimator_->unfiltered();
   }
@@ -128,8 +134,9 @@ class DrawnCamera {
 };
 
 SceneState scene_of(const DrawnDance& dance, double t_s, const GuestId& guest,
-                    const std::shared_ptr<const AvatarModel>& avatar) {
+                    const std::shared_ptr<const AvatarModel>& avatar, int camera) {
   SceneState scene;
+  scene.stage = camera;
   scene.time = MonoTime() + Duration::seconds(1.0 + t_s);
   SceneGuest dancer;
   dancer.id = guest;
@@ -186,12 +193,12 @@ Result<DrawnStage> draw_stage(const DrawnWishes& wishes) {
   for (double t_s = 0.0; t_s < length_s; t_s += 1.0 / kDrawnHz) {
     SceneFrame frame;
     const MonoTime now = MonoTime() + Duration::seconds(1.0 + t_s);
-    DANCE_TRY(frame.landmarks, first.look(*renderer, scene_of(dance, t_s, *guest, avatar), now));
+    DANCE_TRY(frame.landmarks, first.look(*renderer, scene_of(dance, t_s, *guest, avatar, 0), now));
     write_truth(dance, t_s, frame);
     EyeScene::Moment moment;
     moment.time = now + Duration::seconds(kPhase_s);
     DANCE_TRY(moment.landmarks,
-              second.look(*renderer, scene_of(dance, t_s + kPhase_s, *guest, avatar),
+              second.look(*renderer, scene_of(dance, t_s + kPhase_s, *guest, avatar, 1),
                           moment.time + Duration::seconds(stage.other.eye.later_s)));
     pictures += 2;
     seen += (frame.landmarks.found ? 1 : 0) + (moment.landmarks.found ? 1 : 0);

@@ -18,7 +18,8 @@ namespace dance {
 
 struct DrawnWishes {
   std::string take;    // a recorded dance; the salsa dancer where there is none
-  std::string folder;  // keeps the pictures in first/ and second/ of it; "": does not
+  std::string folder;  // keeps the pictures in first/ and second/ of it, and takes those
+                       // that are there; "": does neither
   double seconds = 20.0;
   double distance_m = 3.0;
   double around_deg = 60.0;
