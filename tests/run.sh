@@ -152,7 +152,7 @@ if [ "$sanitizers" = yes ]; then
     # The quality of results on whole songs and takes takes minutes here, and runs no code that smaller tests leave out.
     quality='^BeatSongs|Takes\.|BeatTracker\.(FindsEachTempo|WorksAtEachSampleRate|TracksSalsa|FindsTheNextSong|FollowsATempo)'
     quality+='|BeatTracker\.(IsOnTheNewTempo|TurnsToTheLevel|NeverUsesTheFuture)|MusicEval\.(SaysByGenre|TakesSeveral|HearsASong)'
-    quality+='|StereoDepth|TouchEval\.LimitsOf'
+    quality+='|StereoDepth|SeveralEval|TouchEval\.LimitsOf'
     jobs=$((jobs + 2)) run asan -LE 'check|soak|docs|fuzz' -E "$quality|$draws" "${only[@]}"
   fi
   # What these start has no threads that others do not have; and a camera that is preloaded comes before the sanitizer.

@@ -1,7 +1,5 @@
 #include "research/capture/capture_eval.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -9,18 +7,13 @@
 #include "producers/camera/files/bgr_picture.h"
 #include "producers/camera/files/picture_file.h"
 #include "producers/camera/files/video_reel.h"
+#include "research/capture/thread_time.h"
 
 namespace dance {
 namespace {
 
-std::int64_t thread_ns() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return now.tv_sec * 1000'000'000LL + now.tv_nsec;
-}
-
 double ms_since(std::int64_t start_ns) {
-  return static_cast<double>(thread_ns() - start_ns) * 1e-6;
+  return static_cast<double>(thread_time_ns() - start_ns) * 1e-6;
 }
 
 double worst_difference(std::span<const float> a, std::span<const float> b) {
@@ -33,7 +26,7 @@ double worst_difference(std::span<const float> a, std::span<const float> b) {
 class CaptureEval {
  public:
   explicit CaptureEval(const CaptureEvalOptions& options) : options_(options) {
-    options_.estimator.clock_ns = thread_ns;
+    options_.estimator.clock_ns = thread_time_ns;
   }
   Result<void> open();
   Result<void> add_picture(const std::string& path);
@@ -103,10 +96,10 @@ Result<void> CaptureEval::compare(PoseEstimator& estimator) {
   LandmarkNetwork& first = estimator.network();
   EngineComparison& engines = run_.engines;
   std::copy(first.input().begin(), first.input().end(), other_->input().begin());
-  std::int64_t start_ns = thread_ns();
+  std::int64_t start_ns = thread_time_ns();
   if (!first.run()) return fail("the network does not run");
   engines.first_ms += ms_since(start_ns);
-  start_ns = thread_ns();
+  start_ns = thread_time_ns();
   if (!other_->run()) return fail("the second engine does not run");
   engines.second_ms += ms_since(start_ns);
   ++engines.regions;
@@ -119,19 +112,19 @@ Result<void> CaptureEval::compare(PoseEstimator& estimator) {
 }
 
 Result<void> CaptureEval::take(PoseEstimator& estimator, const Frame& frame, std::string name) {
-  const std::int64_t start_ns = thread_ns();
+  const std::int64_t start_ns = thread_time_ns();
   const BodyLandmarks& body = estimator.estimate(frame);
   run_.ms += ms_since(start_ns);
   run_.frames.push_back({std::move(name), body, estimator.unfiltered(), {}, {}});
   if (hands_) {
-    const std::int64_t hands_start_ns = thread_ns();
+    const std::int64_t hands_start_ns = thread_time_ns();
     for (const HandSide side : {HandSide::kLeft, HandSide::kRight})
       run_.frames.back().hands[static_cast<std::size_t>(side)] = hands_->look(frame, body, side);
     run_.hands_ms += ms_since(hands_start_ns);
     if (judge_) judge_->see(frame, body, estimator.unfiltered());
   }
   if (face_) {
-    const std::int64_t face_start_ns = thread_ns();
+    const std::int64_t face_start_ns = thread_time_ns();
     run_.frames.back().face = face_->look(frame, body);
     run_.face_ms += ms_since(face_start_ns);
   }
@@ -139,7 +132,7 @@ Result<void> CaptureEval::take(PoseEstimator& estimator, const Frame& frame, std
 }
 
 Result<void> CaptureEval::add_picture(const std::string& path) {
-  const std::int64_t start_ns = thread_ns();
+  const std::int64_t start_ns = thread_time_ns();
   Frame frame;
   DANCE_TRY(frame.image, read_bgr_picture(path));
   run_.decode_ms += ms_since(start_ns);
@@ -163,7 +156,7 @@ Result<void> CaptureEval::add_video(const std::string& path) {
     judge_ = std::make_unique<HandsEval>(extras_, reel->width_px(), reel->height_px());
   Frame frame;
   for (std::uint64_t i = 0;; ++i) {
-    const std::int64_t start_ns = thread_ns();
+    const std::int64_t start_ns = thread_time_ns();
     if (!reel->step()) break;
     if (i % options_.every != 0) continue;
     const std::string name = reel->name() + "#" + std::to_string(i);

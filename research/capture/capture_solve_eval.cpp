@@ -1,13 +1,12 @@
 #include "research/capture/capture_solve_eval.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/pose/kinematics.h"
 #include "core/program/figures.h"
 #include "producers/camera/solver/observation.h"
+#include "research/capture/thread_time.h"
 
 namespace dance {
 
@@ -31,12 +30,6 @@ constexpr double kPlanted_s = 0.1;
 // Over which a true foot's speed is measured, at any rate of pictures.
 constexpr double kSpeedOver_s = 1.0 / 30.0;
 constexpr double kWrongWay_m = 0.02;
-
-std::int64_t own_time_ns() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<std::int64_t>(t.tv_sec) * 1'000'000'000 + t.tv_nsec;
-}
 
 // A knee that lies behind the line from hip to ankle, seen from where the foot points.
 int wrong_knees(const JudgedTrack::Frame& frame, const std::array<Vector3d, 2>& toe) {
@@ -120,9 +113,9 @@ JudgedTrack solved_of(const CaptureScene& scene, const SolverOptions& options, S
   BodyFrames frames;
   std::int64_t spent_ns = 0;
   for (const SceneFrame& seen : scene.frames) {
-    const std::int64_t begin_ns = own_time_ns();
+    const std::int64_t begin_ns = thread_time_ns();
     const bool is_there = solver.solve(seen.landmarks, {}, pose);
-    spent_ns += own_time_ns() - begin_ns;
+    spent_ns += thread_time_ns() - begin_ns;
     score.refused += is_there ? 0 : 1;
     forward_kinematics(solver.skeleton(), pose, frames);
     JudgedTrack::Frame frame;

@@ -7,13 +7,13 @@
 namespace dance {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr double kHandDegrees = 180.0 / std::numbers::pi;
 
 // Palms of hands that are half hidden are no measure.
 constexpr float kClear = 0.9f;
 
 double degrees_between(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
-  return kDegrees * static_cast<double>(a.angularDistance(b));
+  return kHandDegrees * static_cast<double>(a.angularDistance(b));
 }
 double tremble_deg(const Eigen::Quaternionf& before, const Eigen::Quaternionf& is,
                    const Eigen::Quaternionf& after) {

@@ -3,20 +3,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <opencv2/core/mat.hpp>
 
 #include "core/base/assert.h"
 #include "producers/salsa/salsa_dancer.h"
+#include "research/capture/thread_time.h"
 
 namespace dance {
 namespace {
-
-double thread_us() {
-  timespec t{};
-  if (clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t) != 0) return 0.0;
-  return static_cast<double>(t.tv_sec) * 1e6 + static_cast<double>(t.tv_nsec) * 1e-3;
-}
 
 struct OneError {
   double depth_m;
@@ -146,9 +140,9 @@ void evaluate_dancer(const StereoEvalCase& what, std::uint64_t seed, int frames,
         landmarks_of(joints_of(body_later, camera), truth, Side::kRight, errors, random);
     seen.is_new = frame == 0;
     seen.capture_time = MonoTime() + t;
-    const double start_us = thread_us();
+    const double start_us = 1e-3 * static_cast<double>(thread_time_ns());
     const DepthHint hint = depth.hint(left, right, seen);
-    tally.us += thread_us() - start_us;
+    tally.us += 1e-3 * static_cast<double>(thread_time_ns()) - start_us;
     ++out.frames;
     const auto one_eye = fit_monocular(depth.samples());
     if (hint.joints == 0 || !one_eye) continue;

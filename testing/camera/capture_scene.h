@@ -7,8 +7,6 @@
 // Ownership:    plain values.
 // Threads:      none inside.
 // Failure:      none; the same seed gives the same errors.
-// Source:       sizes of the errors: measured of BlazePose full against its reference and against
-//               motion capture (docs/capture-solver.md).
 #pragma once
 
 #include <Eigen/Geometry>
@@ -20,32 +18,9 @@
 #include "core/pose/pose.h"
 #include "producers/camera/body_landmarks.h"
 #include "producers/camera/pinhole.h"
+#include "testing/camera/scene_network.h"
 
 namespace dance {
-
-struct SceneErrors {
-  double image_sd = 0.003;      // of a point's coordinate, as a share of the region's side
-  double image_memory_s = 0.1;  // how long an error lasts
-  double length_sd = 0.06;      // of a bone's length in the network's metres
-  double depth_sd = 0.15;       // of a bone's direction along the view, as a share of its length
-  double aside_sd = 0.05;       // across the view
-  double world_memory_s = 0.3;
-  double place_sd_m = 0.006;     // where the network has a joint on this body, for good
-  double scale = 0.97;           // of the network's metres, for good
-  double hidden_per_s = 0.12;    // how often an arm or a leg goes out of sight
-  double hidden_for_s = 0.4;     // for how long, in the mean
-  double hidden_image_sd = 8.0;  // errors are so much larger then
-  // A back that the network takes for a front, while it is turned to the camera: how often, for how
-  // long in the mean, and at most. Left and right change sides, and in every second burst depth is
-  // reversed too: a body that is seen from behind, 25 degrees aside, turns by 130 degrees so.
-  double flips_per_s = 0.0;
-  double flip_for_s = 0.1;
-  double flip_most_s = 0.25;
-  bool hides_outside = false;  // points outside the picture are guessed, as hidden ones are
-};
-constexpr SceneErrors no_errors() {
-  return {0.0, 0.1, 0.0, 0.0, 0.0, 0.3, 0.0, 1.0, 0.0, 0.4, 1.0};
-}
 
 struct SceneCamera {
   Pinhole pinhole = assumed_pinhole(1280, 720);
@@ -69,7 +44,9 @@ struct CaptureScene {
   SceneCamera camera;
   Eigen::Matrix3d R_WC;
   Eigen::Vector3d p_WC_m;
-  double height_m = 0.0;  // of the dancer
+  double height_m = 0.0;                                 // of the dancer
+  Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();    // W's, in the stage of the poses
+  Eigen::Vector3d middle_W_m = Eigen::Vector3d::Zero();  // of the dance
   std::vector<SceneFrame> frames;
 
   Eigen::Vector3d to_W(const Eigen::Vector3d& p_C_m) const { return R_WC * p_C_m + p_WC_m; }
@@ -82,5 +59,34 @@ double lowest_sole_m(const Skeleton& skeleton, const BodyFrames& frames);
 CaptureScene make_scene(const std::string& name, const Skeleton& skeleton,
                         const std::vector<Pose>& poses, double hz, const SceneCamera& camera,
                         const SceneErrors& errors, std::uint64_t seed);
+
+// A second camera before the same dance: not synchronised, its stamps late by something that nobody
+// knows, with a network of its own, whose errors are others.
+struct SceneEye {
+  SceneCamera camera;
+  double around_rad = 1.0;  // about the vertical through the middle of the dance; to the right
+  double hz = 30.0;
+  double phase_s = 0.011;  // of its pictures, after the first camera's
+  double later_s = 0.02;   // its stamps of a moment, less the first camera's
+  double drift = 0.0;      // of its stamps, seconds a second
+};
+
+struct EyeScene {
+  struct Moment {
+    MonoTime time;            // by the first camera's stamps
+    BodyLandmarks landmarks;  // with its own
+  };
+  SceneEye eye;
+  Eigen::Matrix3d R_WC;
+  Eigen::Vector3d p_WC_m;
+  std::vector<Moment> moments;
+
+  double later_s(double since_start_s) const { return eye.later_s + eye.drift * since_start_s; }
+};
+
+// `poses` of the dance of `first`, `poses_hz` a second from the same beginning.
+EyeScene make_eye(const CaptureScene& first, const Skeleton& skeleton,
+                  const std::vector<Pose>& poses, double poses_hz, const SceneEye& eye,
+                  const SceneErrors& errors, std::uint64_t seed);
 
 }  // namespace dance

@@ -136,6 +136,39 @@ TEST_F(CapturePrograms, WaitForACameraThatWasUnplugged) {
   expect_good_dance(ear);
 }
 
+// Both see the same film from one place: there is nothing to place, and all else runs.
+TEST_F(CapturePrograms, LookThroughASecondCameraBesideTheFirst) {
+  CaptureEar ear;
+  const std::string json = folder_.path("output");
+  ChildProcess& capture = start_before_shim(
+      "modes=YUYV:640x360@30 hz=30 file=" + raw_film(60),
+      {"42", "--also", kVideo, "--loop", "--model", "lite", "--bus", kBus, "--json"});
+  ASSERT_TRUE(wait_for([&] {
+    return talk().find("taiji.mp4 is being placed: move about") != std::string::npos;
+  })) << talk();
+  ASSERT_TRUE(wait_for([&] { return ear.has_more_than(20); })) << talk();
+  capture.ask_to_stop();
+  ASSERT_TRUE(wait_for([&] { return capture.has_ended(); }));
+  EXPECT_TRUE(capture.ended_well()) << capture.exit_text() << talk();
+  expect_good_dance(ear);
+  const auto counted = nlohmann::json::parse(text_of(json), nullptr, false);
+  ASSERT_FALSE(counted.is_discarded()) << text_of(json);
+  ASSERT_EQ(counted["also"].size(), 1u);
+  EXPECT_EQ(counted["also"][0]["source"], "taiji.mp4");
+  EXPECT_GE(counted["also"][0]["seen"].get<int>(), 5);
+  EXPECT_FALSE(counted["also"][0]["placed"].get<bool>());
+}
+
+TEST_F(CapturePrograms, TakeThreeCamerasBesideTheFirstAtMost) {
+  ChildProcess& capture =
+      start("dance-capture", {kVideo, "--also", kVideo, "--also", kVideo, "--also", kVideo,
+                              "--also", kVideo, "--model", "lite", "--bus", kBus});
+  ASSERT_TRUE(wait_for([&] { return capture.has_ended(); }));
+  EXPECT_FALSE(capture.ended_well());
+  EXPECT_NE(talk().find("--also: 3 cameras beside the first are the most"), std::string::npos)
+      << talk();
+}
+
 TEST_F(CapturePrograms, KeepVideoBesidePoses) {
   const std::string folder = folder_.path("take");
   {

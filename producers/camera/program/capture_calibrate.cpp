@@ -22,12 +22,11 @@ class BoardPreview {
     frame.image.copyTo(drawn_.image);
     drawn_.capture_time = frame.capture_time;
     draw_board(drawn_.image, board.columns, board.rows, corners);
-    preview.show(drawn_, nobody_, caption);
+    preview.show(drawn_, {}, caption);
   }
 
  private:
   Frame drawn_;
-  BodyLandmarks nobody_;
 };
 
 Result<void> solve_and_save(const CaptureOptions& options, const ChessboardCalibration& board) {

@@ -17,9 +17,11 @@ constexpr const char* kExamples = R"(Examples:
   dance capture                                   the first of them sees alice
   dance capture /dev/video2 --guest bob --preview
   dance capture evening.mp4 --guest bob --loop    a video as if it were a camera
+  dance capture --guest alice,bob --preview       two dancers before one camera
   dance capture --height 1.68 --mirror            as tall as she is; the stage as a mirror
   dance capture --calibrate camera.yml --board 9x6 --square 25
   dance capture --calibration camera.yml
+  dance capture /dev/video0 --also /dev/video2 --height 1.68    two webcams, no board
   dance capture zed --calibration SN1234.conf     two cameras side by side
   dance capture --record takes/first              video beside poses
 )";
@@ -30,6 +32,8 @@ Result<void> run_capture(const CaptureOptions& options) {
     std::fputs((options.wants_json ? camera_json(cameras) : camera_table(cameras)).c_str(), stdout);
     return {};
   }
+  if (!options.also.empty() && (options.only_checks || !options.calibrate_file.empty()))
+    return fail("--also is for dancing: --check and --calibrate look through one camera");
   if (options.only_checks) {
     DANCE_TRY(auto check, CaptureCheck::open(options));
     return check->run();
@@ -48,7 +52,7 @@ int main(int argc, char** argv) {
   using dance::PoseModel;
   dance::CaptureOptions options;
   dance::CommandLine line(
-      "A dancer before a camera, or in a video: poses on POSE/capture/<guest>. The picture itself "
+      "Dancers before a camera, or in a video: poses on POSE/capture/<guest>. The picture itself "
       "goes nowhere.",
       "dance capture");
   line.add("SOURCE", options.source,
@@ -60,7 +64,11 @@ int main(int argc, char** argv) {
                 "them, as bytes for a program on stdout");
   line.add_flag("--text", options.wants_text,
                 "with --check: what to mend, as lines to read, in the language of LANG");
-  line.add("--guest", options.guest, "who dances").guest_name().shows_default();
+  line.add("--guest", options.guests,
+           "who dances; of several dancers all, as alice,bob, from the left to the right of the "
+           "first picture; alice where it is not given")
+      .split_at(',')
+      .guest_name();
   line.add("--size", options.size, "of the picture, like 1280x720; chosen where it is not given");
   line.add("--hz", options.hz, "pictures a second of a camera; 0 = as many as it gives, up to 60")
       .range(0.0, 1000.0);
@@ -85,11 +93,23 @@ int main(int argc, char** argv) {
            "of the lens, or of two cameras: what --calibrate wrote, OpenCV's YAML, or a ZED's "
            "SN<serial>.conf");
   line.add("--right", options.right, "the right camera, where it is a device of its own");
+  line.add("--also", options.also,
+           "another camera or video of the same dancer from another side, without calibration; can "
+           "be given three times")
+      .one_each_time();
+  line.add("--also-calibration", options.also_calibration,
+           "of the lens of each --also, in their order")
+      .one_each_time();
+  line.add("--also-fov", options.also_fov_deg, "degrees that pictures of each --also are wide")
+      .one_each_time()
+      .range(20.0, 150.0);
   line.add("--fov", options.fov_deg,
            "degrees that the picture is wide, where no calibration says it")
       .range(20.0, 150.0)
       .shows_default();
-  line.add("--height", options.height_m, "of the dancer, in metres; 0 = as it looks")
+  line.add("--height", options.heights_m,
+           "of the dancer, in metres; of several dancers all, as 1.8,1.65; 0 = as it looks")
+      .split_at(',')
       .range(0.0, 2.5);
   line.add("--smooth", options.smooth, "0 hardly smooths, 1 as usual, 2 twice as much")
       .range(0.0, 4.0)

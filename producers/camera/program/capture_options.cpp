@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "producers/camera/people/people_tracker.h"
+
 namespace dance {
 
 Result<std::pair<int, int>> parse_pair(const std::string& option, const std::string& text) {
@@ -31,6 +33,28 @@ Result<CameraWish> camera_wish(const CaptureOptions& options) {
   // The network looks at 256 × 256: what is larger than full HD only takes time to unpack.
   wish.max_height_px = 1242;
   return wish;
+}
+
+Result<std::vector<WishedDancer>> wished_dancers(const CaptureOptions& options) {
+  std::vector<WishedDancer> dancers;
+  for (const std::string& name : options.guests) {
+    const auto guest = GuestId::parse(name);
+    if (!guest) return fail("--guest '" + name + "': " + kGuestIdRule);
+    for (const WishedDancer& other : dancers)
+      if (other.guest == *guest) return fail("--guest names " + name + " twice");
+    dancers.push_back({*guest, 0.0});
+  }
+  if (dancers.empty() || dancers.size() > kMostDancers)
+    return fail("--guest: one camera sees 1 to " + std::to_string(kMostDancers) + " dancers");
+  if (!options.heights_m.empty() && options.heights_m.size() != dancers.size())
+    return fail("--height: write one for each dancer, as --guest names them; 0 is as it looks");
+  for (std::size_t i = 0; i < options.heights_m.size(); ++i)
+    dancers[i].height_m = options.heights_m[i];
+  if (dancers.size() > 1 && !options.follow.empty())
+    return fail("--follow chooses one dancer of several people; name one guest, or leave it out");
+  if (dancers.size() > 1 && (!options.also.empty() || !options.right.empty()))
+    return fail("several dancers are seen by one camera; leave out --also and --right");
+  return dancers;
 }
 
 Result<FollowOptions> follow_options(const CaptureOptions& options, int width_px, int height_px) {

@@ -7,16 +7,21 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "core/base/guest_id.h"
 #include "producers/camera/estimator/pose_estimator.h"
 #include "producers/camera/v4l2/video_mode.h"
 
 namespace dance {
 
 struct CaptureOptions {
-  std::string source;  // camera, video, folder; "" = the first camera
-  std::string right;   // the right camera, where it is a device of its own
-  std::string guest = "alice";
+  std::string source;                         // camera, video, folder; "" = the first camera
+  std::string right;                          // the right camera, where it is a device of its own
+  std::vector<std::string> also;              // further cameras, anywhere around the dancer
+  std::vector<std::string> also_calibration;  // of their lenses, in the same order
+  std::vector<double> also_fov_deg;           // where these are not given
+  std::vector<std::string> guests{"alice"};   // as many as dance before the camera
   std::string bus;
   double seconds = 0.0;  // 0 = until stopped
 
@@ -34,8 +39,8 @@ struct CaptureOptions {
 
   // solver
   std::string calibration;
-  double fov_deg = 65.0;  // horizontal, where nothing is measured
-  double height_m = 0.0;  // of the dancer; 0 = not known
+  double fov_deg = 65.0;          // horizontal, where nothing is measured
+  std::vector<double> heights_m;  // of the dancers; none, or 0, = not known
   double smooth = 1.0;
   bool is_mirrored = false;
 
@@ -62,6 +67,13 @@ struct CaptureOptions {
 Result<CameraWish> camera_wish(const CaptureOptions& options);
 // The person that --follow selects, in a picture of this size.
 Result<FollowOptions> follow_options(const CaptureOptions& options, int width_px, int height_px);
+// Who dance, and how tall each of them is (0: not told); an error where that does not fit together,
+// or with the rest of the options.
+struct WishedDancer {
+  GuestId guest;
+  double height_m = 0.0;
+};
+Result<std::vector<WishedDancer>> wished_dancers(const CaptureOptions& options);
 // Two whole numbers with an x between them.
 Result<std::pair<int, int>> parse_pair(const std::string& option, const std::string& text);
 

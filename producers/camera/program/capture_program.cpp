@@ -18,21 +18,60 @@ constexpr Duration kFrameTimeout = Duration::ms(50);
 constexpr Duration kSilence = Duration::s(3);
 constexpr Duration kTroubleEvery = Duration::s(1);
 
+nlohmann::ordered_json dancers_json(const CaptureChain& chain) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const auto& dancer : chain.dancers()) {
+    const DancerStats& stats = dancer->stats();
+    all.push_back(
+        {{"guest", std::string(dancer->guest().view())},
+         {"seen", stats.seen},
+         {"poses", stats.published},
+         {"dequeued_to_published_p50_ms", stats.dequeued_to_published.percentile(0.5).as_ms()},
+         {"dequeued_to_published_p99_ms", stats.dequeued_to_published.percentile(0.99).as_ms()},
+         {"standing_height_m", standing_height_m(dancer->solver().skeleton())}});
+  }
+  return all;
+}
+
+nlohmann::ordered_json also_json(const OtherCameras& others) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  for (const OtherCameraReport& camera : others.reports()) {
+    nlohmann::ordered_json one{{"source", camera.name},
+                               {"pictures", camera.pictures},
+                               {"seen", camera.seen},
+                               {"placed", camera.placement.has_value()},
+                               {"moves", camera.moves}};
+    if (const auto& placement = camera.placement) {
+      const RelativePose& pose = placement->pose;
+      const Eigen::Vector3d p_m = -(pose.R_BA.transpose() * pose.p_BA) * placement->baseline_m;
+      const Eigen::Quaterniond R_AB(pose.R_BA.transpose());
+      one["p_AB_m"] = {p_m.x(), p_m.y(), p_m.z()};
+      one["R_AB_xyzw"] = {R_AB.x(), R_AB.y(), R_AB.z(), R_AB.w()};
+      one["angle_deg"] = placement->angle_rad * kDegrees;
+      one["turn_sd_deg"] = placement->turn_sd_rad * kDegrees;
+      one["later_ms"] = 1e3 * pose.later_s;
+      one["spread"] = placement->spread;
+    }
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<CaptureProgram>> CaptureProgram::open(const CaptureOptions& options) {
   std::unique_ptr<CaptureProgram> program(new CaptureProgram(options));
-  const auto guest = GuestId::parse(options.guest);
-  if (!guest) return fail("--guest '" + options.guest + "': " + kGuestIdRule);
-  program->guest_ = *guest;
+  DANCE_TRY(program->dancers_, wished_dancers(options));
   // Before any thread is started, as these inherit the blocked signals.
   DANCE_TRY(program->poller_, Poller::create());
   if (auto stops = program->poller_->stop_on_signals(); !stops)
     return tl::make_unexpected(stops.error());
   DANCE_TRY(program->input_, CaptureInput::open(options));
   // First what fails without side effects; a recording creates files.
-  DANCE_TRY(program->preview_, open_preview(options, PreviewSide::kAsTheStageShows,
-                                            options.guest + " before " + program->input_->name()));
+  DANCE_TRY(program->preview_,
+            open_preview(options, PreviewSide::kAsTheStageShows,
+                         program->names() + " before " + program->input_->name()));
   if (auto opened = program->open_chain(); !opened) return tl::make_unexpected(opened.error());
   program->say_what_runs();
   return program;
@@ -45,7 +84,7 @@ Result<void> CaptureProgram::open_chain() {
   seeing.models_folder = options_.models_folder;
   DANCE_TRY(seeing.follow,
             follow_options(options_, input_->format().width_px, input_->format().height_px));
-  DANCE_TRY(auto estimator, PoseEstimator::open(seeing));
+  DANCE_TRY(auto source, open_landmark_source(seeing, dancers_.size()));
   DANCE_TRY(bus_, Bus::open(options_.bus));
   bus_sink_ = std::make_unique<PortCaptureSink>(*bus_);
   CaptureSink* sink = bus_sink_.get();
@@ -54,8 +93,19 @@ Result<void> CaptureProgram::open_chain() {
               CaptureRecording::create(options_.record_folder, input_->format().hz, *sink));
     sink = recording_.get();
   }
-  chain_ = std::make_unique<CaptureChain>(guest_, *sink, std::move(estimator), make_solver());
-  if (input_->rig()) chain_->enable_stereo(std::make_unique<StereoDepth>(*input_->rig()));
+  if (input_->cameras() > 1 && dancers_.size() > 1)
+    return fail("a stereo camera sees one dancer; name one guest");
+  std::vector<std::unique_ptr<DancerCapture>> dancers;
+  for (const WishedDancer& dancer : dancers_)
+    dancers.push_back(std::make_unique<DancerCapture>(dancer.guest, *sink, nullptr));
+  chain_ = std::make_unique<CaptureChain>(std::move(source), std::move(dancers));
+  make_solvers();
+  if (!options_.also.empty()) {
+    if (input_->cameras() > 1) return fail("--also and a stereo camera: give one of them");
+    DANCE_TRY(others_, OtherCameras::open(options_, input_->camera()));
+    chain_->first().enable_others(*others_);
+  }
+  if (input_->rig()) chain_->first().enable_stereo(std::make_unique<StereoDepth>(*input_->rig()));
   if (auto opened = open_extras(); !opened) return opened;
   poller_->watch(bus_->fd(), [bus = bus_.get()](MonoTime now) { bus->drain(now); });
   return {};
@@ -70,17 +120,31 @@ Result<void> CaptureProgram::open_extras() {
     return {};
   }
   DANCE_TRY(extras_.hands, HandNetworks::open(options_.engine, folder));
-  chain_->enable_extras(
-      std::make_unique<HandsAndFace>(extras_, ExtraOptions{options_.smooth, options_.is_mirrored}));
+  for (const auto& dancer : chain_->dancers())
+    dancer->enable_extras(std::make_unique<HandsAndFace>(
+        extras_, ExtraOptions{options_.smooth, options_.is_mirrored}));
   return {};
 }
 
-std::unique_ptr<BodySolver> CaptureProgram::make_solver() const {
-  SolverOptions solving;
-  if (options_.height_m > 0.0) solving.height_m = options_.height_m;
-  solving.is_mirrored = options_.is_mirrored;
-  solving.smooth = options_.smooth;
-  return std::make_unique<BodySolver>(solving, input_->camera());
+void CaptureProgram::make_solvers() {
+  const auto shared = dancers_.size() > 1 ? make_shared_placement() : nullptr;
+  for (std::size_t i = 0; i < dancers_.size(); ++i) {
+    SolverOptions solving;
+    if (dancers_[i].height_m > 0.0) solving.height_m = dancers_[i].height_m;
+    solving.is_mirrored = options_.is_mirrored;
+    solving.smooth = options_.smooth;
+    chain_->dancers()[i]->use(std::make_unique<BodySolver>(solving, input_->camera(), shared));
+  }
+}
+
+std::string CaptureProgram::names() const {
+  std::string names;
+  for (std::size_t i = 0; i < dancers_.size(); ++i)
+    names += (i == 0                    ? ""
+              : i + 1 < dancers_.size() ? ", "
+                                        : " and ") +
+             std::string(dancers_[i].guest.view());
+  return names;
 }
 
 void CaptureProgram::say_what_runs() const {
@@ -88,9 +152,11 @@ void CaptureProgram::say_what_runs() const {
   if (!input_->camera().is_measured)
     talk::info("the lens is not measured: {:g} degrees across are assumed (--fov, or --calibrate)",
                options_.fov_deg);
-  talk::info("pose network {} on {}; {} dances on POSE/capture/{}; Ctrl-C ends it",
-             name_of(options_.model), name_of(chosen_engine(options_.engine)), options_.guest,
-             options_.guest);
+  const bool are_several = dancers_.size() > 1;
+  talk::info("pose network {} on {}; {} {} on POSE/capture/{}; Ctrl-C ends it",
+             name_of(options_.model), name_of(chosen_engine(options_.engine)), names(),
+             are_several ? "dance" : "dances",
+             are_several ? "…" : std::string(dancers_.front().guest.view()));
 }
 
 void CaptureProgram::run() {
@@ -99,6 +165,7 @@ void CaptureProgram::run() {
   if (options_.seconds > 0.0) end_ = begin_ + Duration::seconds(options_.seconds);
   CaptureFrame seen;
   bool is_over = false;
+  if (others_) others_->start();
   while (!is_over && !poller_->is_stopped()) {
     switch (input_->next(kFrameTimeout, seen)) {
       case FrameState::kFrame:
@@ -144,8 +211,9 @@ bool CaptureProgram::has_usual_size(const cv::Mat& picture) {
   }
   talk::info("{} gives {}x{} now; the dancer is measured again", input_->name(), picture.cols,
              picture.rows);
-  chain_->use(make_solver());
+  make_solvers();
   chain_->restart();
+  if (others_) others_->set_first(input_->camera());
   return true;
 }
 
@@ -158,15 +226,15 @@ void CaptureProgram::look(const CaptureFrame& seen) {
   if (extras_.hands && extras_.load.add(now - seen.left.fetched, last_picture_ - before, now))
     talk::info("this machine's speed: {}", text_of(extras_.load.step()));
   // The pose is sent; nothing below blocks.
-  const std::string_view advice = advice_.see(seen.left.image, chain_->body());
+  const std::string_view advice = advice_.see(seen.left.image, chain_->bodies().front());
   if (!advice.empty()) talk::info("{}", advice);
   if (preview_) {
-    const CaptureStats& stats = chain_->stats();
     const double seconds = std::max(0.1, (last_picture_ - begin_).as_seconds());
-    preview_->show(seen.left, chain_->body(),
-                   fmt::format("{}  {:.0f} Hz  {:.1f} ms", options_.guest,
-                               static_cast<double>(stats.pictures) / seconds,
-                               stats.dequeued_to_published.percentile(0.5).as_ms()));
+    preview_->show(
+        seen.left, chain_->bodies(),
+        fmt::format("{}  {:.0f} Hz  {:.1f} ms", names(),
+                    static_cast<double>(chain_->pictures()) / seconds,
+                    chain_->first().stats().dequeued_to_published.percentile(0.5).as_ms()));
   }
   if (recording_) recording_->add(seen.left);
 }
@@ -189,22 +257,31 @@ void CaptureProgram::say_trouble(MonoTime now) {
   if (recording_) say_once(has_said_recording_, recording_->trouble());
   if (preview_) say_once(has_said_preview_, preview_->trouble());
   say_once(has_said_input_, input_->trouble());
-  if (chain_->stereo()) say_once(has_said_stereo_, chain_->stereo()->trouble());
+  if (const std::string news = others_ ? others_->news() : ""; !news.empty())
+    talk::info("{}", news);
+  if (const StereoDepth* stereo = chain_->first().stereo())
+    say_once(has_said_stereo_, stereo->trouble());
 }
 
 void CaptureProgram::report() const {
-  const CaptureStats& stats = chain_->stats();
+  const DancerStats& stats = chain_->first().stats();
   const FrameCounters counters = input_->counters();
   const double seconds = (mono_now() - begin_).as_seconds();
-  const double hz = seconds > 0.0 ? static_cast<double>(stats.pictures) / seconds : 0.0;
+  const double hz = seconds > 0.0 ? static_cast<double>(chain_->pictures()) / seconds : 0.0;
   const auto ms = [](const Histogram& h, double fraction) {
     return h.percentile(fraction).as_ms();
   };
   talk::info(
       "{} pictures ({:.1f} Hz), a dancer in {}, {} poses; picture to bus {:.1f} ms p50, {:.1f} ms "
       "p99",
-      stats.pictures, hz, stats.seen, stats.published, ms(stats.dequeued_to_published, 0.5),
+      chain_->pictures(), hz, stats.seen, stats.published, ms(stats.dequeued_to_published, 0.5),
       ms(stats.dequeued_to_published, 0.99));
+  for (std::size_t i = 1; i < dancers_.size(); ++i) {
+    const DancerStats& other = chain_->dancers()[i]->stats();
+    talk::info("{} in {}, {} poses; picture to bus {:.1f} ms p50, {:.1f} ms p99",
+               dancers_[i].guest.view(), other.seen, other.published,
+               ms(other.dequeued_to_published, 0.5), ms(other.dequeued_to_published, 0.99));
+  }
   if (counters.outrun + counters.lost + counters.damaged + counters.unplugged > 0)
     talk::info(
         "{} pictures were outrun by newer ones, {} lost in the driver, {} damaged; unplugged {} "
@@ -212,11 +289,11 @@ void CaptureProgram::report() const {
         counters.outrun, counters.lost, counters.damaged, counters.unplugged);
   if (recording_) talk::info("{}: {}", options_.record_folder, recording_->summary());
   if (!options_.wants_json) return;
-  const CameraStand stand = chain_->solver().camera_stand();
+  const CameraStand stand = chain_->first().solver().camera_stand();
   nlohmann::ordered_json json{
       {"source", input_->name()},
       {"seconds", seconds},
-      {"pictures", stats.pictures},
+      {"pictures", chain_->pictures()},
       {"hz", hz},
       {"seen", stats.seen},
       {"poses", stats.published},
@@ -228,11 +305,14 @@ void CaptureProgram::report() const {
       {"lost", counters.lost},
       {"damaged", counters.damaged},
       {"unplugged", counters.unplugged},
-      {"searches", chain_->estimator().counters().searches},
+      {"searches", chain_->source().searches()},
       {"camera_height_m", stand.height_m},
       {"camera_pitch_deg", stand.pitch_rad * 180.0 / std::numbers::pi},
-      {"standing_height_m", standing_height_m(chain_->solver().skeleton())}};
-  if (chain_->stereo()) json["stereo_hints"] = chain_->stereo()->counters().hinted;
+      {"standing_height_m", standing_height_m(chain_->first().solver().skeleton())}};
+  if (const StereoDepth* stereo = chain_->first().stereo())
+    json["stereo_hints"] = stereo->counters().hinted;
+  if (dancers_.size() > 1) json["dancers"] = dancers_json(*chain_);
+  if (others_) json["also"] = also_json(*others_);
   std::printf("%s\n", json.dump().c_str());
 }
 

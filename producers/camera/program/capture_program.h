@@ -34,20 +34,22 @@ class CaptureProgram {
   Result<void> open_chain();
   Result<void> open_extras();
   void say_what_runs() const;
-  std::unique_ptr<BodySolver> make_solver() const;
+  void make_solvers();
+  std::string names() const;  // "alice and bob"
   bool has_usual_size(const cv::Mat& picture);
   void look(const CaptureFrame& seen);
   void say_trouble(MonoTime now);
   void report() const;
 
   CaptureOptions options_;
-  GuestId guest_;
+  std::vector<WishedDancer> dancers_;
   std::unique_ptr<Poller> poller_;
   std::unique_ptr<CaptureInput> input_;
   std::unique_ptr<Bus> bus_;
   std::unique_ptr<PortCaptureSink> bus_sink_;
   std::unique_ptr<CaptureRecording> recording_;
   Extras extras_;
+  std::unique_ptr<OtherCameras> others_;
   std::unique_ptr<CaptureChain> chain_;
   std::unique_ptr<Preview> preview_;
   DancerAdvice advice_;

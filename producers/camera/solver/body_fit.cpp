@@ -63,36 +63,36 @@ void BodyFit::add_row(const Row& row, std::uint64_t moved, double residual, doub
   cost_ += 0.5 * weight * residual * residual;
 }
 
-void BodyFit::add_rays(const FitProblem& problem, bool trusting) {
-  const Observation& seen = *problem.seen;
-  const Matrix3d R_CW = problem.camera->R_WC().transpose();
-  const double variance = seen.ray_sd * seen.ray_sd;
+void BodyFit::add_rays(const Eye& eye, bool trusting) {
+  const Observation& seen = *eye.seen;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
     if (seen.weight[i] <= 0.0) continue;
-    const Vector3d p = problem.camera->to_C(model_.point(i));
+    Vector3d p_W = model_.point(i);
+    if (eye.moved_W_m) p_W -= (*eye.moved_W_m)[i];
+    const Vector3d p = eye.R_VW * (p_W - eye.p_WV_m);
     if (p.z() < 0.2) continue;
     const Vector2d residual(p.x() / p.z() - seen.ray[i].x(), p.y() / p.z() - seen.ray[i].y());
-    double weight = seen.weight[i] / variance;
-    if (!trusting) weight /= 1.0 + residual.squaredNorm() / (kOutlier * kOutlier * variance);
+    double weight = eye.trust * seen.weight[i] / eye.variance;
+    if (!trusting) weight /= 1.0 + residual.squaredNorm() / (kOutlier * kOutlier * eye.variance);
     const PointJacobian& J = model_.jacobian(i);
     for (int axis = 0; axis < 2; ++axis) {
       // d(x/z) = (dx − (x/z) dz) / z
       const Vector3d direction =
-          (R_CW.row(axis) - p[axis] / p.z() * R_CW.row(2)).transpose() / p.z();
+          (eye.R_VW.row(axis) - p[axis] / p.z() * eye.R_VW.row(2)).transpose() / p.z();
       const Row row = direction.transpose() * J;
       add_row(row, model_.moved_by(i), residual[axis], weight);
     }
   }
 }
 
-void BodyFit::add_vectors(const FitProblem& problem) {
-  const Observation& seen = *problem.seen;
-  const Matrix3d& R_WC = problem.camera->R_WC();
+void BodyFit::add_vectors(const Eye& eye) {
+  const Observation& seen = *eye.seen;
+  const Matrix3d R_WV = eye.R_VW.transpose();
   for (const BodyVector& v : kBodyVectors) {
     const std::size_t fa = point_of(v.from_a), fb = point_of(v.from_b), ta = point_of(v.to_a),
                       tb = point_of(v.to_b);
-    const double weight = std::min({seen.world_weight[fa], seen.world_weight[fb],
-                                    seen.world_weight[ta], seen.world_weight[tb]});
+    const double weight = eye.trust * std::min({seen.world_weight[fa], seen.world_weight[fb],
+                                                seen.world_weight[ta], seen.world_weight[tb]});
     if (weight <= 0.0) continue;
     const Vector3d measured =
         seen.world_m[ta] + seen.world_m[tb] - seen.world_m[fa] - seen.world_m[fb];
@@ -101,7 +101,7 @@ void BodyFit::add_vectors(const FitProblem& problem) {
         0.5 * (model_.point(ta) + model_.point(tb) - model_.point(fa) - model_.point(fb));
     const double has_m = has.norm();
     if (measured_m < 1e-3 || has_m < 1e-3) continue;
-    const Vector3d residual = has - R_WC * measured * (has_m / measured_m);
+    const Vector3d residual = has - R_WV * measured * (has_m / measured_m);
     const double sd = v.sd * has_m;
     const std::uint64_t moved =
         model_.moved_by(ta) | model_.moved_by(tb) | model_.moved_by(fa) | model_.moved_by(fb);
@@ -111,6 +111,29 @@ void BodyFit::add_vectors(const FitProblem& problem) {
       add_row(row, moved, residual[axis], weight / (sd * sd));
     }
   }
+}
+
+void BodyFit::add_eyes(const FitProblem& problem, bool trusting) {
+  std::array<Eye, 1 + kMostOtherViews> eyes;
+  const CameraPlacement& camera = *problem.camera;
+  const Matrix3d R_CW = camera.R_WC().transpose();
+  eyes[0] = {problem.seen,
+             R_CW,
+             camera.to_W(Vector3d::Zero()),
+             problem.seen->ray_sd * problem.seen->ray_sd,
+             1.0,
+             nullptr};
+  std::size_t count = 1;
+  for (std::size_t i = 0; i < problem.other_count; ++i) {
+    const OtherView& other = problem.others[i].view;
+    const double variance =
+        other.seen.ray_sd * other.seen.ray_sd + other.placement_sd * other.placement_sd;
+    eyes[count++] = {
+        &other.seen, other.R_VC * R_CW, camera.to_W(-(other.R_VC.transpose() * other.p_VC_m)),
+        variance,    other.trust,       &problem.others[i].moved_W_m};
+  }
+  for (std::size_t i = 0; i < count; ++i) add_rays(eyes[i], trusting);
+  for (std::size_t i = 0; i < count; ++i) add_vectors(eyes[i]);
 }
 
 void BodyFit::add_expectation(const FitProblem& problem, const BodyState& state) {
@@ -167,8 +190,7 @@ void BodyFit::build(const FitProblem& problem, bool trusting, const BodyState& s
   normal_.setZero();
   gradient_.setZero();
   cost_ = 0.0;
-  add_rays(problem, trusting);
-  add_vectors(problem);
+  add_eyes(problem, trusting);
   picture_cost_ = cost_;
   add_expectation(problem, state);
   add_soles(problem);

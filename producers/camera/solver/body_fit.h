@@ -2,13 +2,13 @@
 // damped Gauss-Newton over the 44 degrees of freedom, with bones whose lengths cannot change.
 //
 // Units/frames: rays in C, body in W; the floor is y = 0.
-// Ownership:    keeps its numbers (about 60 KB); never allocates.
+// Ownership:    keeps its numbers (about 80 KB); never allocates.
 // Threads:      none inside; one owner.
 // Failure:      solve() is false where the numbers are not finite; the state is then as it was.
 // Source:       Nocedal and Wright, Numerical Optimization, 2006, chapter 10. Each term of the sum
 //               is a squared difference over its variance: rays of landmarks (with Cauchy's weight,
 //               against outliers), directions of body vectors from the network, the expectation, a
-//               rest posture, soles on the floor, the depth from the second camera.
+//               rest posture, soles on the floor, the depth from a stereo camera.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,6 +19,7 @@
 #include "producers/camera/solver/body_model.h"
 #include "producers/camera/solver/camera_placement.h"
 #include "producers/camera/solver/observation.h"
+#include "producers/camera/solver/other_view.h"
 
 namespace dance {
 
@@ -35,6 +36,13 @@ struct Expectation {
   DofVector ease = DofVector::Zero();       // 1/variance about the rest posture
 };
 
+// Another camera's picture, as the fit needs it.
+struct FitView {
+  OtherView view;
+  // How far each point moved in W since that picture, by the prediction.
+  std::array<Eigen::Vector3d, kLandmarkCount> moved_W_m;
+};
+
 struct FitProblem {
   const Observation* seen = nullptr;
   const CameraPlacement* camera = nullptr;
@@ -43,6 +51,8 @@ struct FitProblem {
   std::array<SoleTouch, kSoleCount> soles;
   bool has_floor = false;
   std::optional<DepthHint> depth;
+  std::array<FitView, kMostOtherViews> others;
+  std::size_t other_count = 0;
 };
 
 // The rest posture: arms hang, knees a little bent. Place and heading are not part of it.
@@ -62,8 +72,18 @@ class BodyFit {
   using Normal = Eigen::Matrix<double, dof::kCount, dof::kCount>;
 
   void build(const FitProblem& problem, bool trusting, const BodyState& state);
-  void add_rays(const FitProblem& problem, bool trusting);
-  void add_vectors(const FitProblem& problem);
+  // A camera of the frame V; C is the first one's.
+  struct Eye {
+    const Observation* seen;
+    Eigen::Matrix3d R_VW;
+    Eigen::Vector3d p_WV_m;
+    double variance;  // of a ray's coordinate
+    double trust;
+    const std::array<Eigen::Vector3d, kLandmarkCount>* moved_W_m;  // null: of this moment
+  };
+  void add_eyes(const FitProblem& problem, bool trusting);
+  void add_rays(const Eye& eye, bool trusting);
+  void add_vectors(const Eye& eye);
   void add_expectation(const FitProblem& problem, const BodyState& state);
   void add_soles(const FitProblem& problem);
   void add_depth(const FitProblem& problem);

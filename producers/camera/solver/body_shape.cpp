@@ -1,5 +1,7 @@
 #include "producers/camera/solver/body_shape.h"
 
+#include <algorithm>
+
 namespace dance {
 
 using Eigen::Vector3d;
@@ -13,6 +15,8 @@ constexpr double kReference_m = 1.72;
 constexpr double kAnkle_m = 0.08, kHeelY_m = -0.045, kHeelZ_m = 0.014, kFoot_m = 0.146;
 // A foot's heel is behind its ankle by this share of what its toes are before it.
 constexpr double kBehind = 0.24;
+// Of neck and head to those of an average body.
+constexpr double kMostHeadRatio = 1.35;
 
 double& length(BodyLengths& lengths, Length which) {
   return lengths[static_cast<std::size_t>(which)];
@@ -180,6 +184,20 @@ BodyShape shape_of(const BodyLengths& lengths) {
         offset[index_of(Bone::kLeftFoot)].y() + offset[index_of(Bone::kLeftToes)].y() +
         shape.skeleton.tip(Tip::kLeftToes).y());
   place_points(shape, lengths);
+  return shape;
+}
+
+BodyShape shape_of(const BodyLengths& lengths, double stature_m) {
+  BodyShape shape = shape_of(lengths);
+  auto& offset = shape.skeleton.offset_m;
+  float& crown = shape.skeleton.tip_m[static_cast<std::size_t>(Tip::kHead)].y();
+  float& neck = offset[index_of(Bone::kNeck)].y();
+  float& head = offset[index_of(Bone::kHead)].y();
+  const double above_m = static_cast<double>(neck + head + crown);
+  const double missing_m = stature_m - static_cast<double>(standing_height_m(shape.skeleton));
+  const auto by = static_cast<float>(
+      std::clamp(1.0 + missing_m / above_m, 1.0 / kMostHeadRatio, kMostHeadRatio));
+  for (float* length_m : {&neck, &head, &crown}) *length_m *= by;
   return shape;
 }
 

@@ -55,6 +55,8 @@ using BodyLengths = std::array<double, kLengthCount>;  // metres
 BodyLengths average_lengths(double height_m);
 // A body of these lengths; all others are average for its height.
 BodyShape shape_of(const BodyLengths& lengths);
+// The same of a person who stands this tall: neck and head are what the rest leaves.
+BodyShape shape_of(const BodyLengths& lengths, double stature_m);
 // The standing height of a body with these lengths.
 double height_of(const BodyLengths& lengths);
 

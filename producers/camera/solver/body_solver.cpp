@@ -24,10 +24,12 @@ BodySolver::BodySolver(BodySolver&&) noexcept = default;
 BodySolver& BodySolver::operator=(BodySolver&&) noexcept = default;
 
 bool BodySolver::solve(const BodyLandmarks& landmarks, const std::optional<DepthHint>& depth,
-                       Pose& out) {
-  return inside_->solve(landmarks, depth, out);
+                       Pose& out, OtherViews others) {
+  return inside_->solve(landmarks, depth, out, others);
 }
+void BodySolver::take_lengths(const BodyLengths& lengths) { inside_->take_lengths(lengths); }
 const Skeleton& BodySolver::skeleton() const { return inside_->skeleton(); }
+double BodySolver::height_m() const { return inside_->height_m(); }
 bool BodySolver::is_settled() const { return inside_->is_settled(); }
 CameraStand BodySolver::camera_stand() const { return inside_->camera_stand(); }
 void BodySolver::reset() { inside_->reset(); }

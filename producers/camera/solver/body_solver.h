@@ -21,6 +21,8 @@
 #include "producers/camera/body_landmarks.h"
 #include "producers/camera/depth_hint.h"
 #include "producers/camera/pinhole.h"
+#include "producers/camera/solver/body_shape.h"
+#include "producers/camera/solver/other_view.h"
 
 namespace dance {
 
@@ -40,6 +42,7 @@ struct CameraStand {
   double pitch_rad = 0.0;  // positive: it looks down
   bool is_settled = false;
   Eigen::Matrix3d R_WC = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();  // the camera's axes in W
+  Eigen::Vector3d p_WC_m = Eigen::Vector3d::Zero();
 };
 
 struct SharedPlacement;
@@ -55,10 +58,16 @@ class BodySolver {
   BodySolver& operator=(BodySolver&&) noexcept;
 
   // Writes rotations, hips, presence, confidence and capture time of `out`; the rest of it stays.
-  bool solve(const BodyLandmarks& landmarks, const std::optional<DepthHint>& depth, Pose& out);
+  // `others`: what other cameras saw of the same dancer, kMostOtherViews at most.
+  bool solve(const BodyLandmarks& landmarks, const std::optional<DepthHint>& depth, Pose& out,
+             OtherViews others = {});
+  // Bones that were measured otherwise, from several cameras; they are held.
+  void take_lengths(const BodyLengths& lengths);
 
   // The dancer's bones as far as they are known. `version` changes with them.
   const Skeleton& skeleton() const;
+  // Of this body, as body_shape.h's height_of() has it.
+  double height_m() const;
   // True once bones are held and the floor is found.
   bool is_settled() const;
   CameraStand camera_stand() const;

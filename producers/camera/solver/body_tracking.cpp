@@ -6,6 +6,7 @@
 
 #include "core/motion/joint_limits.h"
 #include "producers/camera/solver/first_posture.h"
+#include "producers/camera/solver/joint_views.h"
 
 namespace dance {
 
@@ -49,7 +50,9 @@ BodyTracking::BodyTracking(const SolverOptions& options, const Pinhole& camera,
 
 void BodyTracking::set_shape(const BodyLengths& lengths) {
   const std::uint32_t version = shape_.skeleton.version;
-  shape_ = shape_of(lengths);
+  shape_ = options_.height_m && proportions_.is_measured() ? shape_of(lengths, *options_.height_m)
+                                                           : shape_of(lengths);
+  height_m_ = height_of(lengths);
   shape_.skeleton.version = version + 1;
 }
 
@@ -76,7 +79,8 @@ Vector3d BodyTracking::middle_of_hips_C(const BodyState& state) {
                          (model_.point(Landmark::kLeftHip) + model_.point(Landmark::kRightHip)));
 }
 
-bool BodyTracking::refit(const Observation& seen, BodyState& state) {
+bool BodyTracking::refit(BodyState& state) {
+  const Observation seen = merged(problem_);
   state = first_posture(seen, shape_, placement_.R_WC());
   state.p_WH_m.setZero();
   model_.place(shape_, state);
@@ -84,7 +88,7 @@ bool BodyTracking::refit(const Observation& seen, BodyState& state) {
   for (std::size_t i = 0; i < kLandmarkCount; ++i)
     relative_C[i] = placement_.R_WC().transpose() * model_.point(i);
   Vector3d hips_C;
-  if (!place_on_rays(seen, relative_C, hips_C)) return false;
+  if (!place_on_all_rays(problem_, relative_C, hips_C)) return false;
   state.p_WH_m = placement_.to_W(hips_C);
   problem_.expected.state = state;
   problem_.expected.precision.setZero();
@@ -116,7 +120,7 @@ bool BodyTracking::begin(const Observation& seen, MonoTime now) {
     placement_.update();
   }
   BodyState state;
-  if (!refit(seen, state)) return false;
+  if (!refit(state)) return false;
   if (!has_placement_) {
     std::size_t lowest = kLandmarkCount;
     for (std::size_t i = kLandmarkCount; i < kBodyPointCount; ++i)
@@ -180,23 +184,25 @@ bool BodyTracking::has_plausible_facing(Observation& seen, MonoTime now, double 
 
 bool BodyTracking::follow(const Observation& seen, MonoTime now, double seconds,
                           bool is_plausible) {
-  const PartVisibility visibility = visibility_of(seen);
+  const Observation all = merged(problem_);
+  const PartVisibility visibility = visibility_of(all);
   const Expectation expected = motion_.expect(seconds, visibility);
   problem_.expected = expected;
   for (std::size_t i = 0; i < kSoleCount; ++i) problem_.soles[i] = contacts_.touch(i);
   BodyState state = expected.state;
   model_.place(shape_, state);
-  take_far_limbs(seen, placement_.R_WC(), model_, first_posture(seen, shape_, placement_.R_WC()),
+  take_far_limbs(all, placement_.R_WC(), model_, first_posture(all, shape_, placement_.R_WC()),
                  state);
+  const double least_dear = kLeastDear * (1.0 + static_cast<double>(problem_.other_count));
   bool is_fitted = fit_.solve(problem_, kRounds, kTrustingRounds, state);
   const double cost = fit_.picture_cost();
   since_suspect_s_ += seconds;
   if (!is_fitted || is_turned_ ||
-      (is_plausible && cost > kLeastDear &&
+      (is_plausible && cost > least_dear &&
        (cost > kDear * usual_cost_ || since_suspect_s_ > kDoubt_s))) {
     since_suspect_s_ = 0.0;
     BodyState refitted;
-    if (is_plausible && refit(seen, refitted) &&
+    if (is_plausible && refit(refitted) &&
         (!is_fitted || std::exchange(is_turned_, false) ||
          fit_.picture_cost() < kClearlyBetter * cost)) {
       // The contacts of a wrong posture are wrong, and so may be the floor found from them.
@@ -219,6 +225,10 @@ bool BodyTracking::follow(const Observation& seen, MonoTime now, double seconds,
   write_pose(expected.state, carried);
   write_pose(state, found);
   visibility_.blend(now, carried, found);
+  // Another camera has another opinion of where the body is.
+  const std::size_t eyes = problem_.other_count + (seen.is_usable ? 1 : 0);
+  if (eyes != std::exchange(eyes_, eyes) && problem_.other_count + eyes > 1)
+    visibility_.blend_all(now, carried, found);
   motion_.follow(expected, state, seconds);
   contacts_.follow(fit_.model(), seen, placement_, seconds);
   return true;
@@ -259,15 +269,26 @@ void BodyTracking::learn_bones(const Observation& seen, const std::optional<Dept
   const bool is_due =
       pictures != before && (pictures == Proportions::kFirst || pictures == Proportions::kHeld);
   if (!is_due) return;
+  grow_to(lengths_on_floor(), now);
+  growth_sum_ = 0.0;
+  growths_ = 0;
+}
+
+void BodyTracking::take_lengths(const BodyLengths& lengths) {
+  proportions_.hold(lengths);
+  if (!is_tracking_) return set_shape(lengths);
+  grow_to(lengths, time_);
+}
+
+void BodyTracking::grow_to(const BodyLengths& lengths, MonoTime now) {
+  model_.place(shape_, motion_.state());
   const double was_lowest_m = lowest_sole_m();
   const double was_m = static_cast<double>(standing_height_m(shape_.skeleton));
   BodyState state = motion_.state();
   Pose carried, found;
   write_pose(state, carried);
   const Vector3d hips_C = placement_.to_C(state.p_WH_m);
-  set_shape(lengths_on_floor());
-  growth_sum_ = 0.0;
-  growths_ = 0;
+  set_shape(lengths);
   proportions_.discard_image_lengths();
   // A larger body in the same picture is further away, and the floor with it, unless another dancer
   // says how far that is.
@@ -309,8 +330,7 @@ void BodyTracking::learn_camera(const Observation& seen) {
   for (std::size_t i = 0; i < kLandmarkCount; ++i)
     relative_C[i] = R_CW * (model_.point(i) - state.p_WH_m);
   Vector3d hips_C;
-
-  if (place_on_rays(seen, relative_C, hips_C))
+  if (place_on_all_rays(problem_, relative_C, hips_C))
     for (std::size_t i = 0; i < kSoleCount; ++i) {
       if (!contacts_.touch(i).stands) continue;
       const Vector3d sole_C = hips_C + R_CW * (model_.point(kLandmarkCount + i) - state.p_WH_m);
@@ -365,7 +385,9 @@ bool BodyTracking::write(const BodyState& state, const Observation& seen, MonoTi
   if (options_.holds_feet)
     feet_.apply(shape_, contacts_, placement_.is_known(), !facing_.is_behind(), seconds, pose);
   if (options_.keeps_above_floor) lift_.apply(shape_, placement_.is_known(), seconds, pose);
-  if (options_.steadies_hands) steady_hands(seen, seconds, pose);
+  if (options_.steadies_hands)
+    hands_.apply(shape_.skeleton, hand_measurement(problem_, pose.p_WH_m.cast<double>()), seconds,
+                 pose);
   pose.presence = visibility_.presence();
   pose.confidence = static_cast<float>(std::clamp(seen.visible, 0.0, 1.0));
   pose.capture_time = now;
@@ -379,20 +401,18 @@ bool BodyTracking::write(const BodyState& state, const Observation& seen, MonoTi
   return true;
 }
 
-void BodyTracking::steady_hands(const Observation& seen, double seconds, Pose& pose) {
-  const PartVisibility visibility = visibility_of(seen);
-  SteadyHands::Measurement measurement;
-  measurement.eye_W_m = placement_.to_W(Vector3d::Zero()).cast<float>();
-  const double distance_m = (pose.p_WH_m - measurement.eye_W_m).cast<double>().norm();
-  measurement.across_sd_m = static_cast<float>(std::max(0.003, seen.ray_sd * distance_m));
-  for (std::size_t s = 0; s < 2; ++s)
-    measurement.visibility[s] = static_cast<float>(
-        visibility[static_cast<std::size_t>(s == 0 ? Part::kArmLeft : Part::kArmRight)]);
-  hands_.apply(shape_.skeleton, measurement, seconds, pose);
+void BodyTracking::look_at_others(OtherViews others, MonoTime now, double seconds) {
+  take_views(others, problem_);
+  if (problem_.other_count == 0 || !is_tracking_) return;
+  const Expectation expected = motion_.expect(seconds, visibility_of(merged(problem_)));
+  align_views(motion_, expected, shape_, (now - seen_at_).as_seconds(), model_, problem_);
+  // The floor was learned with the depth that one camera has.
+  if (problem_.other_count > 0 && !std::exchange(has_seen_others_, true))
+    placement_.relearn_floor();
 }
 
 bool BodyTracking::solve(const BodyLandmarks& landmarks, const std::optional<DepthHint>& depth,
-                         Pose& out) {
+                         Pose& out, OtherViews others) {
   const MonoTime now = landmarks.capture_time;
   if (time_.is_set() && now <= time_) return false;
   const double seconds = (now - time_).as_seconds();
@@ -408,7 +428,9 @@ bool BodyTracking::solve(const BodyLandmarks& landmarks, const std::optional<Dep
     problem_.depth = depth;
   if (is_tracking_ && now - seen_at_ > kGone) is_tracking_ = false;
   time_ = now;
-  if (!seen.is_usable) {
+  look_at_others(others, now, seconds);
+  const bool has_others = is_tracking_ && problem_.other_count > 0;
+  if (!seen.is_usable && !has_others) {
     if (!is_tracking_) return false;
     carry(seconds, now);
     return write(motion_.state(), seen, now, seconds, out);
@@ -416,14 +438,15 @@ bool BodyTracking::solve(const BodyLandmarks& landmarks, const std::optional<Dep
   // A dancer that was detected again a moment later is judged as one that was followed.
   const bool is_plausible =
       !is_tracking_ || !options_.limits_facing || has_plausible_facing(seen, now, seconds);
-  const bool is_same = is_tracking_ && (!landmarks.is_new || (!is_plausible && !has_depth(seen)));
+  const bool is_same =
+      is_tracking_ && (!landmarks.is_new || has_others || (!is_plausible && !has_depth(seen)));
   const bool is_found = is_same ? follow(seen, now, seconds, is_plausible) : begin(seen, now);
   if (!is_found) {
     is_tracking_ = false;
     return false;
   }
   seen_at_ = now;
-  if (is_plausible) {
+  if (is_plausible && seen.is_usable) {
     learn_camera(seen);
     learn_bones(seen, depth, now);
   }

@@ -29,12 +29,15 @@ class BodyTracking {
   BodyTracking(const SolverOptions& options, const Pinhole& camera,
                std::shared_ptr<SharedPlacement> shared);
 
-  bool solve(const BodyLandmarks& landmarks, const std::optional<DepthHint>& depth, Pose& out);
+  bool solve(const BodyLandmarks& landmarks, const std::optional<DepthHint>& depth, Pose& out,
+             OtherViews others);
+  void take_lengths(const BodyLengths& lengths);
   const Skeleton& skeleton() const { return shape_.skeleton; }
+  double height_m() const { return height_m_; }
   bool is_settled() const { return proportions_.is_held() && placement_.is_settled(); }
   CameraStand camera_stand() const {
     return {placement_.height_m(), placement_.pitch_rad(), placement_.is_settled(),
-            placement_.R_WC()};
+            placement_.R_WC(), placement_.to_W(Eigen::Vector3d::Zero())};
   }
   void reset();
 
@@ -45,7 +48,7 @@ class BodyTracking {
   bool follow(const Observation& seen, MonoTime now, double seconds, bool is_plausible);
   void blend_all(MonoTime now, const BodyState& from, const BodyState& to);
   void carry(double seconds, MonoTime now);
-  bool refit(const Observation& seen, BodyState& state);
+  bool refit(BodyState& state);
   void learn_bones(const Observation& seen, const std::optional<DepthHint>& depth, MonoTime now);
   void learn_camera(const Observation& seen);
   bool sets_scale() const { return !shared_ || shared_->scaled_by == this; }
@@ -57,17 +60,19 @@ class BodyTracking {
   void tell_shared();
   // The state in W as it is since the placement was `was`.
   void rebase(const CameraPlacement& was, BodyState state);
+  void grow_to(const BodyLengths& lengths, MonoTime now);
   void set_shape(const BodyLengths& lengths);
   Eigen::Vector3d middle_of_hips_C(const BodyState& state);
   double lowest_sole_m() const;  // of model_
   void forget_shown();
-  void steady_hands(const Observation& seen, double seconds, Pose& pose);
+  void look_at_others(OtherViews others, MonoTime now, double seconds);
   bool write(const BodyState& state, const Observation& seen, MonoTime now, double seconds,
              Pose& out);
 
   SolverOptions options_;
   Pinhole camera_;
   BodyShape shape_;
+  double height_m_ = 0.0;  // of its lengths
   Proportions proportions_;
   CameraPlacement placement_;
   bool has_placement_ = false;
@@ -75,7 +80,9 @@ class BodyTracking {
   std::uint64_t shared_version_ = 0;
   double growth_sum_ = 0.0;  // of a body that does not set the scale
   int growths_ = 0;
-  BodyModel model_;  // for use outside a fit
+  std::size_t eyes_ = 0;          // cameras that saw the body in the last picture
+  bool has_seen_others_ = false;  // depth was measured by several cameras
+  BodyModel model_;               // for use outside a fit
   BodyFit fit_;
   FitProblem problem_;
   MotionFilter motion_;

@@ -41,6 +41,11 @@ void CameraPlacement::discard_feet() {
   feet_ = refused_ = 0;
 }
 
+void CameraPlacement::relearn_floor() {
+  initial_h_m_ = plane_[0];
+  discard_feet();
+}
+
 void CameraPlacement::add_upright(const Vector3d& up_C) {
   const double norm = up_C.norm();
   // A body that lies or bends does not show what is upright.

@@ -30,6 +30,8 @@ class CameraPlacement {
   void add_foot(const Eigen::Vector3d& p_C_m);
   // Drops the observations of feet: the floor was wrong.
   void discard_feet();
+  // The same where depth is measured better from now on: the floor is about where it was.
+  void relearn_floor();
   // Before any foot was seen to stand: this point is about on the floor.
   void set_initial_floor(const Eigen::Vector3d& lowest_C_m);
   // The place that is W's origin once it is put onto the floor.

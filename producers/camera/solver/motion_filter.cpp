@@ -153,6 +153,12 @@ Expectation MotionFilter::expect(double seconds, const PartVisibility& visibilit
   return expected;
 }
 
+BodyState MotionFilter::before(const Expectation& expected, double seconds) const {
+  BodyState state = expected.state;
+  move(state, -seconds * speed_);
+  return state;
+}
+
 void MotionFilter::follow(const Expectation& expected, const BodyState& state, double seconds) {
   const DofVector way = step_between(state_, expected.state),
                   missed = step_between(expected.state, state);

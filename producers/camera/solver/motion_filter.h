@@ -47,6 +47,8 @@ class MotionFilter {
 
   // The prediction after `seconds`, given which parts are visible now.
   Expectation expect(double seconds, const PartVisibility& visibility) const;
+  // Where the prediction has the body so many seconds before it; negative: after it.
+  BodyState before(const Expectation& expected, double seconds) const;
   // Corrects with the fitted state.
   void follow(const Expectation& expected, const BodyState& state, double seconds);
   // The same body in another W or with other bones: speeds stay.

@@ -108,22 +108,28 @@ Observation observe(const BodyLandmarks& landmarks, const Pinhole& camera) {
 
 bool place_on_rays(const Observation& seen,
                    const std::array<Vector3d, kLandmarkCount>& relative_C_m, Vector3d& place_C_m) {
-  Matrix3d A = 1e-6 * Matrix3d::Identity();
-  Vector3d b = Vector3d::Zero();
+  RayPlace place;
+  place.add(seen, Matrix3d::Identity(), Vector3d::Zero(), 1.0, relative_C_m);
+  return place.solve(place_C_m);
+}
+
+void RayPlace::add(const Observation& seen, const Matrix3d& R_VC, const Vector3d& p_VC_m,
+                   double trust, const std::array<Vector3d, kLandmarkCount>& relative_C_m) {
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
-    const double w = seen.weight[i] * (i <= index_of(Landmark::kMouthRight) ? 0.2 : 1.0);
+    const double w = trust * seen.weight[i] * (i <= index_of(Landmark::kMouthRight) ? 0.2 : 1.0);
     if (w <= 0.0) continue;
-    const Vector3d& p = relative_C_m[i];
+    const Vector3d p = R_VC * relative_C_m[i] + p_VC_m;
     for (int axis = 0; axis < 2; ++axis) {
       const double slope = seen.ray[i][axis];
-      Vector3d row = Vector3d::Zero();
-      row[axis] = 1.0;
-      row.z() = -slope;
-      A += w * row * row.transpose();
-      b += w * row * (slope * p.z() - p[axis]);
+      const Vector3d row = (R_VC.row(axis) - slope * R_VC.row(2)).transpose();
+      A_ += w * row * row.transpose();
+      b_ += w * row * (slope * p.z() - p[axis]);
     }
   }
-  const Vector3d place = A.ldlt().solve(b);
+}
+
+bool RayPlace::solve(Vector3d& place_C_m) const {
+  const Vector3d place = A_.ldlt().solve(b_);
   if (!place.allFinite() || !(place.z() > 0.3) || !(place.z() < 60.0)) return false;
   place_C_m = place;
   return true;

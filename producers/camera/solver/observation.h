@@ -40,4 +40,18 @@ bool place_on_rays(const Observation& seen,
                    const std::array<Eigen::Vector3d, kLandmarkCount>& relative_C_m,
                    Eigen::Vector3d& place_C_m);
 
+// The same least squares of the rays of several cameras, added one after the other.
+class RayPlace {
+ public:
+  RayPlace() : A_(1e-6 * Eigen::Matrix3d::Identity()), b_(Eigen::Vector3d::Zero()) {}
+  // Rays of a camera whose frame V is that of the place, C, turned by `R_VC` and moved by `p_VC_m`.
+  void add(const Observation& seen, const Eigen::Matrix3d& R_VC, const Eigen::Vector3d& p_VC_m,
+           double trust, const std::array<Eigen::Vector3d, kLandmarkCount>& relative_C_m);
+  bool solve(Eigen::Vector3d& place_C_m) const;
+
+ private:
+  Eigen::Matrix3d A_;
+  Eigen::Vector3d b_;
+};
+
 }  // namespace dance

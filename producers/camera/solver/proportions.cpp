@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "producers/camera/solver/length_spans.h"
+
 namespace dance {
 
 using Eigen::Vector3d;
@@ -22,31 +24,6 @@ constexpr int kFewest = 8;
 // picture then has this weight.
 constexpr double kAcross = 0.87, kPictureWorth = 0.7;
 
-struct Span {
-  Length length;
-  Landmark from_a, from_b, to_a, to_b;
-};
-constexpr Span span_of(Length length, Landmark from, Landmark to) {
-  return {length, from, from, to, to};
-}
-constexpr std::array kSpans{
-    span_of(Length::kShoulders, Landmark::kLeftShoulder, Landmark::kRightShoulder),
-    span_of(Length::kHips, Landmark::kLeftHip, Landmark::kRightHip),
-    Span{Length::kTorso, Landmark::kLeftHip, Landmark::kRightHip, Landmark::kLeftShoulder,
-         Landmark::kRightShoulder},
-    span_of(Length::kUpperArm, Landmark::kLeftShoulder, Landmark::kLeftElbow),
-    span_of(Length::kUpperArm, Landmark::kRightShoulder, Landmark::kRightElbow),
-    span_of(Length::kLowerArm, Landmark::kLeftElbow, Landmark::kLeftWrist),
-    span_of(Length::kLowerArm, Landmark::kRightElbow, Landmark::kRightWrist),
-    span_of(Length::kThigh, Landmark::kLeftHip, Landmark::kLeftKnee),
-    span_of(Length::kThigh, Landmark::kRightHip, Landmark::kRightKnee),
-    span_of(Length::kShank, Landmark::kLeftKnee, Landmark::kLeftAnkle),
-    span_of(Length::kShank, Landmark::kRightKnee, Landmark::kRightAnkle),
-    span_of(Length::kFoot, Landmark::kLeftHeel, Landmark::kLeftFootIndex),
-    span_of(Length::kFoot, Landmark::kRightHeel, Landmark::kRightFootIndex),
-    span_of(Length::kEars, Landmark::kLeftEar, Landmark::kRightEar),
-};
-
 }  // namespace
 
 void Proportions::reset() {
@@ -54,6 +31,12 @@ void Proportions::reset() {
   discard_image_lengths();
   scale_sum_ = scale_weight_ = 0.0;
   pictures_ = 0;
+  held_.reset();
+}
+
+void Proportions::hold(const BodyLengths& lengths) {
+  held_ = lengths;
+  pictures_ = kHeld;
 }
 
 void Proportions::discard_image_lengths() {
@@ -64,7 +47,7 @@ void Proportions::measure(const Observation& seen, const Points& points, bool ac
                           AllSamples& all) {
   // Left and right share one list of samples: the mean of both in a picture.
   std::array<double, kLengthCount> sum{}, count{};
-  for (const Span& span : kSpans) {
+  for (const LengthSpan& span : kLengthSpans) {
     const std::size_t i[]{index_of(span.from_a), index_of(span.from_b), index_of(span.to_a),
                           index_of(span.to_b)};
     bool is_seen = true;
@@ -132,6 +115,7 @@ bool Proportions::medians(const AllSamples& all, BodyLengths& lengths,
 }
 
 BodyLengths Proportions::lengths() const {
+  if (held_) return *held_;
   BodyLengths network{}, pictured{};
   std::array<bool, kLengthCount> has_network{}, is_pictured{};
   if (!medians(network_, network, has_network)) return average_lengths(height_m_.value_or(1.72));

@@ -28,6 +28,8 @@ class Proportions {
   // taken as true.
   explicit Proportions(std::optional<double> height_m = {}) : height_m_(height_m) {}
   void reset();
+  // Lengths that were measured otherwise: they are held, whatever pictures say.
+  void hold(const BodyLengths& lengths);
 
   // `pictured_m`: the landmarks where their rays meet the body's depth, in C and in metres of the
   // body that was fitted.
@@ -35,6 +37,8 @@ class Proportions {
            const std::optional<DepthHint>& depth);
   // The fitted body has changed: lengths measured in pictures with the old one are dropped.
   void discard_image_lengths();
+  // hold() gave them.
+  bool is_measured() const { return held_.has_value(); }
   int pictures() const { return pictures_; }
   bool is_held() const { return pictures_ >= kHeld; }
   BodyLengths lengths() const;
@@ -57,6 +61,7 @@ class Proportions {
   AllSamples network_, pictured_;
   double scale_sum_ = 0.0, scale_weight_ = 0.0;
   int pictures_ = 0;
+  std::optional<BodyLengths> held_;
 };
 
 }  // namespace dance

@@ -27,8 +27,9 @@ std::string ending_of(const std::string& file) {
 void mirror(PreviewShot& shot) {
   cv::Mat& picture = shot.picture.pixels;
   cv::flip(picture, picture, 1);
-  for (Eigen::Vector3f& point : shot.body.image_px)
-    point.x() = static_cast<float>(picture.cols - 1) - point.x();
+  for (BodyLandmarks& body : shot.bodies)
+    for (Eigen::Vector3f& point : body.image_px)
+      point.x() = static_cast<float>(picture.cols - 1) - point.x();
 }
 
 }  // namespace
@@ -56,12 +57,17 @@ Preview::~Preview() {
   if (thread_.joinable()) thread_.join();
 }
 
-void Preview::show(const Frame& frame, const BodyLandmarks& body, std::string_view caption) {
+void Preview::show(const Frame& frame, std::span<const BodyLandmarks> bodies,
+                   std::string_view caption) {
   const double scale = std::min(1.0, static_cast<double>(kWidest_px) / frame.image.cols);
   cv::resize(frame.image, scratch_.picture.pixels, {}, scale, scale, cv::INTER_AREA);
-  scratch_.body = body;
-  for (Eigen::Vector3f& point : scratch_.body.image_px) point *= static_cast<float>(scale);
-  scratch_.body.region.side_px *= static_cast<float>(scale);
+  scratch_.body_count = std::min(bodies.size(), scratch_.bodies.size());
+  for (std::size_t i = 0; i < scratch_.body_count; ++i) {
+    BodyLandmarks& body = scratch_.bodies[i];
+    body = bodies[i];
+    for (Eigen::Vector3f& point : body.image_px) point *= static_cast<float>(scale);
+    body.region.side_px *= static_cast<float>(scale);
+  }
   const std::size_t length = std::min(caption.size(), scratch_.caption.size() - 1);
   std::copy_n(caption.begin(), length, scratch_.caption.begin());
   scratch_.caption[length] = '\0';
@@ -103,7 +109,7 @@ void Preview::draw_all() {
     shot = *newest;
     if (options_.is_mirrored) mirror(shot);
     cv::Mat& picture = shot.picture.pixels;
-    draw_landmarks(picture, shot.body);
+    for (std::size_t i = 0; i < shot.body_count; ++i) draw_landmarks(picture, shot.bodies[i]);
     draw_caption(picture, shot.caption.data());
     if (window) window->show(picture);
     const MonoTime now = mono_now();

@@ -13,6 +13,7 @@
 #include <array>
 #include <atomic>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -27,8 +28,10 @@ namespace dance {
 
 // One picture on its way to the preview.
 struct PreviewShot {
+  static constexpr std::size_t kMostBodies = 4;
   DeepPicture picture;
-  BodyLandmarks body;
+  std::array<BodyLandmarks, kMostBodies> bodies;
+  std::size_t body_count = 0;
   std::array<char, 120> caption{};
 };
 
@@ -46,7 +49,8 @@ class Preview {
   Preview(const Preview&) = delete;
   Preview& operator=(const Preview&) = delete;
 
-  void show(const Frame& frame, const BodyLandmarks& body, std::string_view caption);
+  // Of more than PreviewShot::kMostBodies the first ones.
+  void show(const Frame& frame, std::span<const BodyLandmarks> bodies, std::string_view caption);
   // True once the window was closed by its user.
   bool was_closed() const { return was_closed_; }
   // Set once: what ended the preview; "" while all is well. Callable from any thread.

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <fstream>
 #include <limits>
 
 #include "producers/camera/estimator/pose_estimator.h"
 #include "producers/camera/solver/body_solver.h"
+#include "research/capture/thread_time.h"
 
 namespace dance {
 namespace {
@@ -26,11 +26,7 @@ constexpr Landmark kJudgedLandmarks[kJudgedCount]{
 constexpr std::size_t kWrists[]{4, 5};
 constexpr std::size_t kHips[]{6, 7};
 
-double thread_ms() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
+double thread_ms() { return 1e-6 * static_cast<double>(thread_time_ns()); }
 
 // The mean distance of a body's joints in the picture, sides exchanged where that is nearer: a back
 // that is taken for a front is still the same person's.

@@ -20,8 +20,8 @@ namespace {
 constexpr float kStillCutoff_hz = 0.12f, kCutoffPerSpeed_hz = 60.0f, kSpeedCutoff_hz = 1.5f;
 // A speed that a still hand seems to have.
 constexpr float kNoSpeed_m_s = 0.1f;
-// Along the view: what a speed counts, and the errors of a place.
-constexpr float kAlongSpeed = 0.1f, kAlongSd_m = 0.05f;
+// What a speed along the view counts at least.
+constexpr float kAlongSpeed = 0.1f;
 // From so many standard deviations on the filter opens, and is open; by how much in a time of
 // so long.
 constexpr float kOpens = 3.5f, kIsOpen = 7.0f, kOpensIn_s = 1.0f / 30.0f;
@@ -207,12 +207,18 @@ void SteadyHands::apply(const Skeleton& skeleton, const Measurement& measurement
       const float along = v.dot(view);
       return std::pair{(v - along * view).norm(), std::abs(along)};
     };
-    const auto speed_of = [&apart](const Hand& of) {
+    const float along_sd_m = measurement.along_sd_m[s];
+    // A second camera measures the way along the view as well as the other ways.
+    const float along_speed =
+        along_sd_m < kOneEyeAlongSd_m
+            ? std::max(kAlongSpeed, std::min(1.0f, measurement.across_sd_m / along_sd_m))
+            : kAlongSpeed;
+    const auto speed_of = [&apart, along_speed](const Hand& of) {
       const auto [across, along] = apart(of.velocity_B_m_s);
-      return std::hypot(across, kAlongSpeed * along);
+      return std::hypot(across, along_speed * along);
     };
     const auto [off_across, off_along] = apart(wrist - hand.shown.wrist_B_m);
-    const float off = std::hypot(off_across / measurement.across_sd_m, off_along / kAlongSd_m);
+    const float off = std::hypot(off_across / measurement.across_sd_m, off_along / along_sd_m);
     const float longest =
         kOutOfReach_m + skeleton.offset(limb.lower).norm() + skeleton.offset(limb.end).norm();
     const bool reaches =

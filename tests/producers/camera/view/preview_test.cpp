@@ -32,7 +32,7 @@ template <class IsSo>
 cv::Mat shown(Preview& preview, const std::string& file, const Frame& frame, const IsSo& is_so) {
   const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(30);
   while (std::chrono::steady_clock::now() < give_up) {
-    preview.show(frame, standing_body(), "alice, 30 Hz");
+    preview.show(frame, std::array{standing_body()}, "alice, 30 Hz");
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     const auto picture = read_bgr_picture(file);
     if (picture && is_so(*picture)) return *picture;
@@ -72,7 +72,7 @@ TEST(Preview, APictureThatOpenCvRefusesEndsThePreviewAlone) {
   const auto preview = Preview::open(to_file(file_for("two.png")));
   ASSERT_TRUE(preview) << preview.error().what;
   const Frame frame{cv::Mat(200, 160, CV_8UC2, cv::Scalar(40, 60)), MonoTime::from_us(1), 1};
-  (*preview)->show(frame, standing_body(), "two colours");
+  (*preview)->show(frame, std::array{standing_body()}, "two colours");
   while ((*preview)->trouble().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   EXPECT_NE((*preview)->trouble().find("cannot be drawn"), std::string::npos);
 }

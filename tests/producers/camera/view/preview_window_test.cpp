@@ -74,7 +74,7 @@ class PreviewWindow : public ::testing::Test {
     const Frame frame = four_fields();
     const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(30);
     while (std::chrono::steady_clock::now() < give_up && (*preview)->trouble().empty()) {
-      (*preview)->show(frame, BodyLandmarks(), "alice, 30 Hz");
+      (*preview)->show(frame, {}, "alice, 30 Hz");
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
       const cv::Mat screen = screen_of(folder_.path());
       // 640 x 360 in a window without a frame, in the corner, as nobody manages windows here.
