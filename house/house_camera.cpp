@@ -5,7 +5,7 @@
 namespace dance {
 namespace {
 
-// `newest_pose` is when one of the guest came last.
+// `newest_pose` is when one of its dancers came last.
 HostedProgram::Options camera_program(const HostedCamera& camera, const std::string& bus,
                                       const MonoTime& newest_pose) {
   HostedProgram::Options options;
@@ -20,7 +20,14 @@ HostedProgram::Options camera_program(const HostedCamera& camera, const std::str
 }  // namespace
 
 std::vector<std::string> camera_arguments(const HostedCamera& camera, const std::string& bus) {
-  std::vector<std::string> words{"--bus", bus, "--guest", std::string(camera.guest.view())};
+  std::string guests(camera.guest.view()), heights = std::to_string(camera.height_m);
+  bool has_height = camera.height_m > 0.0;
+  for (const HostedCamera::Partner& partner : camera.partners) {
+    guests += "," + std::string(partner.guest.view());
+    heights += "," + std::to_string(partner.height_m);
+    has_height = has_height || partner.height_m > 0.0;
+  }
+  std::vector<std::string> words{"--bus", bus, "--guest", guests};
   const auto add = [&](const char* option, const std::string& value) {
     if (value.empty()) return;
     words.emplace_back(option);
@@ -28,7 +35,7 @@ std::vector<std::string> camera_arguments(const HostedCamera& camera, const std:
   };
   add("--model", camera.model);
   add("--calibration", camera.calibration);
-  if (camera.height_m > 0.0) add("--height", std::to_string(camera.height_m));
+  if (has_height) add("--height", heights);
   if (camera.mirror) words.emplace_back("--mirror");
   if (!camera.hands) add("--hands", "off");
   if (camera.face) words.emplace_back("--face");
@@ -41,8 +48,12 @@ std::vector<std::string> camera_arguments(const HostedCamera& camera, const std:
 HouseCamera::HouseCamera(const HostedCamera& camera, const std::string& bus, SignalPort& port,
                          Poller& poller)
     : program_(camera_program(camera, bus, newest_pose_), poller) {
-  port.subscribe<Pose>({Where::kCapture, camera.guest},
-                       [this](const Channel&, const Pose&, MonoTime now) { newest_pose_ = now; });
+  const auto listen = [&](const GuestId& guest) {
+    port.subscribe<Pose>({Where::kCapture, guest},
+                         [this](const Channel&, const Pose&, MonoTime now) { newest_pose_ = now; });
+  };
+  listen(camera.guest);
+  for (const HostedCamera::Partner& partner : camera.partners) listen(partner.guest);
 }
 
 }  // namespace dance

@@ -88,6 +88,19 @@ Result<void> use_invitation(JoinOptions& options) {
   return {};
 }
 
+bool has_source(const HouseConfig& session, const GuestId& guest) {
+  const auto is_of = [&](const GuestId& other) { return other == guest; };
+  const auto is_before = [&](const HostedCamera& camera) {
+    return is_of(camera.guest) || std::any_of(camera.partners.begin(), camera.partners.end(),
+                                              [&](const auto& p) { return is_of(p.guest); });
+  };
+  return std::any_of(session.producers.begin(), session.producers.end(),
+                     [&](const auto& p) { return is_of(p.guest); }) ||
+         std::any_of(session.receivers.begin(), session.receivers.end(),
+                     [&](const auto& r) { return is_of(r.options.guest); }) ||
+         std::any_of(session.cameras.begin(), session.cameras.end(), is_before);
+}
+
 Result<HouseConfig> session_of(const JoinOptions& options) {
   HouseConfig session;
   if (is_session_file(options.host_or_session)) {
@@ -120,6 +133,10 @@ Result<HouseConfig> session_of(const JoinOptions& options) {
     if (session.guests.empty()) return fail("--camera: who dances? name the guest with --guest");
     HostedCamera camera;
     camera.guest = session.guests.front();
+    // Further guests who come from nowhere else dance before it too.
+    for (const GuestId& guest : session.guests)
+      if (guest != camera.guest && !has_source(session, guest))
+        camera.partners.push_back({guest, 0.0});
     if (options.camera != "auto") camera.device = options.camera;
     // Where the session file has one for this guest, another device; a dancer that stands in for
     // the camera makes room.
@@ -226,7 +243,8 @@ int main(int argc, char** argv) {
       "whose voices come here, instead of the session file's hear: NAME=0 not this guest's, NAME=1 "
       "this guest's; default=0 nobody's who is not named; may be repeated");
   line.add("--camera", options.camera,
-           "a camera sees the first guest: auto, /dev/videoN, a number or a video; instead of what "
+           "a camera sees the guests who come from nowhere else: auto, /dev/videoN, a number or a "
+           "video; instead of what "
            "the session file says");
   line.add(
       "--avatar", options.avatars,

@@ -49,6 +49,13 @@ struct HostedProducer {
 // A dancer whom a camera sees: `dance capture`, started beside the house.
 struct HostedCamera {
   GuestId guest;
+  // Who dances before the same camera, from the left to the right behind the guest, who is the one
+  // on the left; with the height of each in metres, 0 = not told.
+  struct Partner {
+    GuestId guest;
+    double height_m = 0.0;
+  };
+  std::vector<Partner> partners;
   std::string device;       // as dance capture takes it; "" = the first camera
   std::string model;        // lite, full or heavy; "" = as dance capture chooses
   std::string calibration;  // a file; "" = none

@@ -25,7 +25,10 @@ std::vector<GuestId> dancers_of(const HouseConfig& session) {
   };
   for (const HostedProducer& producer : session.producers) add(producer.guest);
   for (const HostedReceiver& receiver : session.receivers) add(receiver.options.guest);
-  for (const HostedCamera& camera : session.cameras) add(camera.guest);
+  for (const HostedCamera& camera : session.cameras) {
+    add(camera.guest);
+    for (const HostedCamera::Partner& partner : camera.partners) add(partner.guest);
+  }
   for (const Route& route : session.routes)
     if (route.from.where == Where::kCapture) add(route.to.guest);
   return dancers;

@@ -2,8 +2,13 @@
 
 #include <fmt/ranges.h>
 
+#include <charconv>
+
 namespace dance {
 namespace {
+
+constexpr double kLeastHeight_m = 0.8, kMostHeight_m = 2.5;  // of a dancer
+constexpr std::size_t kMostBeforeOneCamera = 4;
 
 // A file's name is taken from the folder of the session file; what a camera is called stays as it
 // is: "auto", "1", "HD Webcam".
@@ -16,6 +21,20 @@ std::string device_from(const std::filesystem::path& folder, const std::string& 
   return is_file && !device.empty() ? (folder / path).string() : device;
 }
 
+// "bob", or "bob=1.80" with the height in metres.
+HostedCamera::Partner read_partner(TomlReader& reader, const std::string& text) {
+  HostedCamera::Partner partner;
+  const std::size_t mark = text.find('=');
+  partner.guest = read_guest(reader, "partners", text.substr(0, mark));
+  if (mark == std::string::npos) return partner;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data() + mark + 1, end, partner.height_m);
+  if (error != std::errc() || rest != end ||
+      !(partner.height_m >= kLeastHeight_m && partner.height_m <= kMostHeight_m))
+    reader.complain("partners", "a height is in metres, from 0.8 to 2.5, as \"bob=1.80\"");
+  return partner;
+}
+
 void read_camera(TomlReader& reader, const std::filesystem::path& folder, HouseConfig& session) {
   HostedCamera camera;
   camera.guest = read_guest(reader, "guest", reader.required_string("guest"));
@@ -26,8 +45,12 @@ void read_camera(TomlReader& reader, const std::filesystem::path& folder, HouseC
     reader.complain("model", "is lite, full or heavy");
   if (const auto file = reader.maybe_string("calibration"))
     camera.calibration = (folder / *file).string();
-  camera.height_m = reader.number_or("height", 0.0, 0.0, 2.5);
-  if (camera.height_m != 0.0 && camera.height_m < 0.8)
+  for (const std::string& partner : reader.strings("partners", "[\"bob\", \"carol=1.65\"]"))
+    camera.partners.push_back(read_partner(reader, partner));
+  if (camera.partners.size() >= kMostBeforeOneCamera)
+    reader.complain("partners", "one camera sees four dancers at most");
+  camera.height_m = reader.number_or("height", 0.0, 0.0, kMostHeight_m);
+  if (camera.height_m != 0.0 && camera.height_m < kLeastHeight_m)
     reader.complain("height", "is the dancer's, in metres, from 0.8 to 2.5");
   camera.mirror = reader.bool_or("mirror", false);
   camera.hands = reader.bool_or("hands", true);
