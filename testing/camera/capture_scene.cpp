@@ -61,6 +61,7 @@ CaptureScene make_scene(const std::string& name, const Skeleton& skeleton,
   Vector3d middle = Vector3d::Zero();
   for (const Pose& pose : poses)
     middle += pose.p_WH_m.cast<double>() / static_cast<double>(poses.size());
+  if (camera.middle_m) middle = *camera.middle_m;
   // The take's W with its middle before the camera; the camera looks along −z.
   scene.R_WC = axes_of(camera);
   Vector3d eye(middle.x(), camera.height_m, middle.z() + camera.distance_m);

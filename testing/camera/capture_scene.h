@@ -11,6 +11,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct SceneCamera {
   double pitch_rad = 0.09;  // looks down
   double roll_rad = 0.015;
   double distance_m = 3.6;  // from the middle of the dance
+  // Where that is in the W of the poses; without it, the mean of the dancer's places.
+  std::optional<Eigen::Vector3d> middle_m = std::nullopt;
 };
 
 struct SceneFrame {

@@ -103,7 +103,8 @@ float cost_of(const LimbClaimant& own, const SeenBody& other, std::size_t limb, 
                         (kExpectedSd * measure_px(body));
       cost += std::min(off * off, kMostTerm);
     }
-    const float excess = own.motion->excess(body, limb) / kExcessSd;
+    const auto longer = own.motion->excess(body, limb);
+    const float excess = std::max(longer[0], longer[1]) / kExcessSd;
     cost += std::min(excess * excess, kMostTerm);
   }
   if (!own.is_in_front && is_before_trunk(other, place_px(body, kLimbPoints[limb].end)))
@@ -125,7 +126,7 @@ bool are_one(const SeenBody& a, std::size_t limb_a, const SeenBody& b, std::size
 
 // The end of a limb that reaches too far, to where the other's is.
 bool ends_in(const LimbClaimant& own, const SeenBody& other, std::size_t limb) {
-  if (!own.motion->is_known(limb) || !(own.motion->excess(*own.body, limb) > kTooLong))
+  if (!own.motion->is_known(limb) || !(own.motion->excess(*own.body, limb)[1] > kTooLong))
     return false;
   const Eigen::Vector2f end = place_px(*own.body, kLimbPoints[limb].end);
   const std::size_t kind = limb / 2 * 2;
@@ -207,13 +208,13 @@ LimbMotion::Ends LimbMotion::expected(const SeenBody& body, std::size_t limb, Mo
   return ends;
 }
 
-float LimbMotion::excess(const SeenBody& body, std::size_t limb) const {
+std::array<float, 2> LimbMotion::excess(const SeenBody& body, std::size_t limb) const {
   const auto lengths = lengths_of(body, limb);
-  float most = 0.0f;
+  std::array<float, 2> excess{};
   for (std::size_t e = 0; e < 2; ++e)
     if (limbs_[limb].longest[e] > 0.0f)
-      most = std::max(most, lengths[e] / limbs_[limb].longest[e] - 1.0f);
-  return most;
+      excess[e] = std::max(0.0f, lengths[e] / limbs_[limb].longest[e] - 1.0f);
+  return excess;
 }
 
 int resolve_limbs(std::span<const LimbClaimant> people, MonoTime now) {

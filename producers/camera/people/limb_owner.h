@@ -31,9 +31,9 @@ class LimbMotion {
   // Where this body's limb is expected, by its motion beside the trunk.
   Ends expected(const SeenBody& body, std::size_t limb, MonoTime now) const;
   bool is_known(std::size_t limb) const { return limbs_[limb].pictures >= kKnown; }
-  // By how much the limb's bones are longer than they ever were, as a share of that; 0: they are
-  // not.
-  float excess(const SeenBody& body, std::size_t limb) const;
+  // By how much each of the limb's two bones is longer than it ever was, as a share of that; 0: it
+  // is not.
+  std::array<float, 2> excess(const SeenBody& body, std::size_t limb) const;
   void reset() { *this = {}; }
 
  private:

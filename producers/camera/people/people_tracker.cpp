@@ -343,6 +343,7 @@ float PeopleTracker::distance(std::size_t a, std::size_t b, MonoTime now) const 
 // How much better the picture's colours fit if the two were taken for each other.
 float PeopleTracker::evidence_of_exchange(std::size_t a, std::size_t b, const Looks& looks) const {
   float evidence = 0.0f;
+  if (!tracks_[a].look.differs_from(tracks_[b].look)) return evidence;
   for (const auto& [is, other] : {std::pair(a, b), std::pair(b, a)}) {
     if (!found_[is].is_found) continue;
     const auto own = tracks_[is].look.distance(looks[is]);

@@ -9,6 +9,7 @@ constexpr float kLeastVisibility = 0.5f;
 // The light on a dancer changes more than the colour.
 const PictureColour kLeastVariance(0.08f * 0.08f, 0.03f * 0.03f, 0.03f * 0.03f);
 constexpr float kMostDistance = 9.0f;
+constexpr float kDiffers = 2.0f;
 constexpr int kRemembered = 150;  // pictures
 
 struct Samples {
@@ -111,6 +112,18 @@ float LookModel::distance(const PictureColour& colour) const {
   for (const Part& part : parts_)
     if (part.pictures > 0) least = std::min(least, part.squared(colour));
   return least;
+}
+
+bool LookModel::differs_from(const LookModel& other) const {
+  float sum = 0.0f;
+  int count = 0;
+  for (std::size_t i = 0; i < kLookParts; ++i) {
+    if (parts_[i].pictures == 0 || other.parts_[i].pictures == 0) continue;
+    sum +=
+        std::min(parts_[i].squared(other.parts_[i].mean), other.parts_[i].squared(parts_[i].mean));
+    ++count;
+  }
+  return count > 0 && sum > kDiffers * static_cast<float>(count);
 }
 
 std::optional<float> LookModel::distance(const PersonLook& look) const {

@@ -34,6 +34,8 @@ class LookModel {
   std::optional<float> distance(const PersonLook& look) const;
   // Of one place in a picture from the nearest part.
   float distance(const PictureColour& colour) const;
+  // Whether the two can be told apart by their clothes.
+  bool differs_from(const LookModel& other) const;
   // Whether enough pictures were learned to judge by.
   bool is_known() const { return pictures_ >= kKnown; }
   void reset() { *this = {}; }
