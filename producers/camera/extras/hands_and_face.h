@@ -1,6 +1,6 @@
 // HandsAndFace: what a camera sees of one dancer beside the pose: fingers, wrists that follow the
-// palm, and, where the dancer wants that, the face. It works after the pose is published, so that the pose is not later for it; what it
-// sees turns the wrists of the next pose.
+// palm, and, where the dancer wants that, the face. It works after the pose is published, so that
+// the pose is not later for it; what it sees turns the wrists of the next pose.
 //
 // Units/frames: Hands and Pose as in core/pose/pose.h; R_WC turns the camera's axes into W.
 // Ownership:    owns the dancer's state; refers to networks that all dancers share and that must
@@ -53,6 +53,8 @@ class HandsAndFace {
   // Another dancer, or another camera.
   void reset();
 
+  // Whether the face at rest is known, against which expressions are told.
+  bool knows_rest() const { return expressions_.knows_rest(); }
   const HandTracker* hands() const { return hands_ ? &*hands_ : nullptr; }
 
  private:

@@ -1,5 +1,5 @@
-// FaceSolver: turns a face's points into the 52 expressions of ARKit. What a face looks like at rest
-// is learned in the first two seconds in which it looks about ahead; an expression is how far
+// FaceSolver: turns a face's points into the 52 expressions of ARKit. What a face looks like at
+// rest is learned in the first two seconds in which it looks about ahead; an expression is how far
 // distances between points differ from that. Some cannot be told from these points and stay 0:
 // cheekPuff, jawForward, mouthDimple, tongueOut, and where the eyes look.
 //
