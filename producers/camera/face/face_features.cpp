@@ -40,7 +40,8 @@ std::optional<FaceShape> shape_of(const FaceLandmarks& face) {
   shape.R_CHead =
       (Quaternionf(R) * Quaternionf(Eigen::AngleAxisf(kForeheadBack_rad, Vector3f::UnitX())))
           .normalized();
-  const float scale = 1.0f / left.norm();
+  shape.eyes_px = left.norm();
+  const float scale = 1.0f / shape.eyes_px;
   const Vector3f nose = px[kBelowNose];
   const auto at = [&](std::size_t i) -> Vector3f {
     return scale * (R.transpose() * (px[i] - nose));

@@ -42,6 +42,7 @@ using FaceFeatures = std::array<float, kFaceFeatureCount>;
 struct FaceShape {
   Eigen::Quaternionf R_CHead;
   FaceFeatures features{};
+  float eyes_px = 0.0f;  // between the outer corners of the eyes: how finely the face is seen
 };
 std::optional<FaceShape> shape_of(const FaceLandmarks& face);
 

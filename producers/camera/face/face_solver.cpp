@@ -19,6 +19,9 @@ constexpr Duration kFaceFades = Duration::ms(700);
 // Further aside the points of the far half are guesses.
 constexpr float kLeastAhead = 0.7f;
 
+// By how many pixels points of a face at rest wander.
+constexpr float kNoise_px = 0.7f;
+
 // 0 at rest, 1 where the difference is `full`.
 float shown(float difference, float full) {
   const float share = difference / full;
@@ -99,10 +102,16 @@ void read_lips(const Reading& r) {
 
 }  // namespace
 
-std::array<float, kExpressionCount> expressions_of(const FaceFeatures& is,
-                                                   const FaceFeatures& rest) {
+std::array<float, kExpressionCount> expressions_of(const FaceFeatures& is, const FaceFeatures& rest,
+                                                   float noise) {
   std::array<float, kExpressionCount> weight{};
-  const Reading reading{is, rest, weight};
+  // What is within the noise is as at rest, and what is beyond it begins there.
+  FaceFeatures clear;
+  for (std::size_t f = 0; f < kFaceFeatureCount; ++f) {
+    const float off = is[f] - rest[f];
+    clear[f] = rest[f] + (off > noise ? off - noise : off < -noise ? off + noise : 0.0f);
+  }
+  const Reading reading{clear, rest, weight};
   read_eyes(reading);
   read_jaw(reading);
   read_lips(reading);
@@ -141,7 +150,7 @@ void FaceSolver::see(const FaceLandmarks& face, MonoTime now) {
   const double hz = passed_s > 0.0 ? 1.0 / passed_s : kFaceFirst_hz;
   OneEuroSetting setting = kWeights;
   setting.min_cutoff_hz /= std::max(0.05, smooth_);
-  const auto seen = expressions_of(shape->features, rest_);
+  const auto seen = expressions_of(shape->features, rest_, kNoise_px / shape->eyes_px);
   for (std::size_t i = 0; i < kExpressionCount; ++i)
     weight_[i] = std::clamp(filters_[i].next(seen[i], hz, 1.0, setting), 0.0f, 1.0f);
 }

@@ -18,8 +18,9 @@
 namespace dance {
 
 // How far each expression is shown by a face with these features, of which those at rest are known.
-std::array<float, kExpressionCount> expressions_of(const FaceFeatures& is,
-                                                   const FaceFeatures& rest);
+// Differences up to `noise` say nothing.
+std::array<float, kExpressionCount> expressions_of(const FaceFeatures& is, const FaceFeatures& rest,
+                                                   float noise);
 
 class FaceSolver {
  public:

@@ -57,7 +57,7 @@ FaceFeatures features_of(const FaceLandmarks& face) {
 std::array<float, kExpressionCount> shown_by(const std::function<void(FaceLandmarks&)>& change) {
   FaceLandmarks face = face_at_rest();
   change(face);
-  return expressions_of(features_of(face), features_of(face_at_rest()));
+  return expressions_of(features_of(face), features_of(face_at_rest()), 0.0f);
 }
 
 float of(const std::array<float, kExpressionCount>& weight, Expression e) {
@@ -66,6 +66,16 @@ float of(const std::array<float, kExpressionCount>& weight, Expression e) {
 
 TEST(FaceSolver, AFaceAtRestShowsNothing) {
   for (const float weight : shown_by([](FaceLandmarks&) {})) EXPECT_EQ(weight, 0.0f);
+}
+
+TEST(FaceSolver, WhatWandersWithinTheNoiseOfASmallFaceShowsNothing) {
+  FaceLandmarks face = face_at_rest();
+  face.image_px[285].y() += 2.0f;  // a brow: a third of a frown of the large face
+  const FaceFeatures rest = features_of(face_at_rest());
+  const auto far = expressions_of(features_of(face), rest, 0.025f);
+  EXPECT_EQ(of(far, Expression::kBrowDownLeft), 0.0f);
+  const auto near = expressions_of(features_of(face), rest, 0.005f);
+  EXPECT_GT(of(near, Expression::kBrowDownLeft), 0.1f);
 }
 
 TEST(FaceSolver, AClosedEyeBlinksOnItsOwnSide) {
@@ -132,7 +142,7 @@ TEST(FaceSolver, WhateverThePointsAreWeightsStayWithinTheirRange) {
     const auto shape = shape_of(face);
     if (!shape) continue;
     Face out;
-    out.weight = expressions_of(shape->features, rest);
+    out.weight = expressions_of(shape->features, rest, 0.0f);
     EXPECT_TRUE(is_valid(out));
     for (const Expression e : {Expression::kCheekPuff, Expression::kTongueOut,
                                Expression::kJawForward, Expression::kMouthDimpleLeft})
