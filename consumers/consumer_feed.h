@@ -24,6 +24,12 @@ inline void feed_consumer(SignalPort& port, const From& from, PoseConsumer& cons
                         [&consumer](const Channel& channel, const Hands& hands, MonoTime now) {
                           consumer.on_hands(channel.guest(), hands, now);
                         });
+  // Faces have no stage: what is captured here, and what came through the tunnel.
+  for (const Where where : {Where::kCapture, Where::kGuest})
+    port.subscribe<Face>({where, from.guest},
+                         [&consumer](const Channel& channel, const Face& face, MonoTime now) {
+                           consumer.on_face(channel.guest(), face, now);
+                         });
   port.subscribe<Beat>(Where::kLocal, [&consumer](const Channel&, const Beat& beat, MonoTime now) {
     consumer.on_beat(beat, now);
   });

@@ -15,6 +15,7 @@
 #include "core/base/guest_id.h"
 #include "core/base/result.h"
 #include "core/base/time.h"
+#include "core/pose/face.h"
 #include "core/pose/pose.h"
 #include "core/pose/skeleton.h"
 
@@ -26,6 +27,7 @@ class PoseConsumer {
   virtual void on_pose(const GuestId& guest, const Pose& pose, MonoTime now) = 0;
   virtual void on_skeleton(const GuestId&, const Skeleton&, MonoTime) {}
   virtual void on_hands(const GuestId&, const Hands&, MonoTime) {}
+  virtual void on_face(const GuestId&, const Face&, MonoTime) {}
   // Of the music that is heard in this house.
   virtual void on_beat(const Beat&, MonoTime) {}
   // For what is repeated, and to notice guests that fell silent.

@@ -17,6 +17,8 @@ class CaptureSink {
   virtual void capture(const GuestId& guest, Pose& pose, MonoTime now) = 0;
   virtual void capture(const GuestId& guest, const Hands& hands) = 0;
   virtual void capture(const GuestId& guest, const TimedSkeleton& skeleton) = 0;
+  // Only where the dancer wants it; a recording does not keep it.
+  virtual void capture_face(const GuestId&, const Face&) {}
   // What the producer itself knows of its dancer's steps; of no use to a recording.
   virtual void tell(const GuestId&, const Steps&) {}
 };
@@ -35,6 +37,9 @@ class PortCaptureSink : public CaptureSink {
   }
   void capture(const GuestId& guest, const TimedSkeleton& skeleton) override {
     captures_.port().publish(Where::kCapture, guest, skeleton);
+  }
+  void capture_face(const GuestId& guest, const Face& face) override {
+    captures_.port().publish(Where::kCapture, guest, face);
   }
   void tell(const GuestId& guest, const Steps& steps) override {
     captures_.port().publish(Where::kCapture, guest, steps);

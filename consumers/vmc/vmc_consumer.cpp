@@ -40,7 +40,8 @@ void VmcConsumer::on_pose(const GuestId& guest, const Pose& pose, MonoTime now) 
   if (is_first) writer_.write_model(guest.c_str());
   is_silent_ = false;
   if (now - hands_heard_ > kHandsKept) has_hands_ = false;
-  writer_.write_pose(pose, has_hands_ ? &hands_ : nullptr, time_s_);
+  if (now - face_heard_ > kFaceKept) has_face_ = false;
+  writer_.write_pose(pose, has_hands_ ? &hands_ : nullptr, time_s_, has_face_ ? &face_ : nullptr);
   ++frames_;
 }
 
@@ -55,6 +56,13 @@ void VmcConsumer::on_hands(const GuestId& guest, const Hands& hands, MonoTime no
   hands_ = hands;
   has_hands_ = hands.presence != 0;
   hands_heard_ = now;
+}
+
+void VmcConsumer::on_face(const GuestId& guest, const Face& face, MonoTime now) {
+  if (!guest_.takes(guest)) return;
+  face_ = face;
+  has_face_ = true;
+  face_heard_ = now;
 }
 
 void VmcConsumer::on_second(MonoTime now) {

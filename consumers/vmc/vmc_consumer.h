@@ -29,12 +29,14 @@ class VmcConsumer final : public PoseConsumer {
   static constexpr Duration kSilence = Duration::s(1);
   // Fingers that do not come for so long are no longer known.
   static constexpr Duration kHandsKept = Duration::s(2);
+  static constexpr Duration kFaceKept = Duration::s(2);
 
   static Result<std::unique_ptr<PoseConsumer>> open(const ConsumerOptions& options);
 
   void on_pose(const GuestId& guest, const Pose& pose, MonoTime now) override;
   void on_skeleton(const GuestId& guest, const Skeleton& skeleton, MonoTime now) override;
   void on_hands(const GuestId& guest, const Hands& hands, MonoTime now) override;
+  void on_face(const GuestId& guest, const Face& face, MonoTime now) override;
   void on_second(MonoTime now) override;
   Result<void> finish() override;
   std::string summary() const override;
@@ -51,6 +53,9 @@ class VmcConsumer final : public PoseConsumer {
   Hands hands_;
   bool has_hands_ = false;
   MonoTime hands_heard_;
+  Face face_;
+  bool has_face_ = false;
+  MonoTime face_heard_;
   bool is_silent_ = true;
   MonoTime heard_;     // the newest pose, on this host's clock
   MonoTime captured_;  // the same, and the zero of T, on the clock that poses are stamped by

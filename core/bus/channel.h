@@ -85,6 +85,8 @@ constexpr auto kChannelTable = std::to_array<ChannelRow>({
     {Signal::kHands, Where::kCapture, "HANDS/capture/<guest>", "hands_t"},
     {Signal::kHands, Where::kGuest, "HANDS/guest/<guest>", "hands_t"},
     {Signal::kHands, Where::kStage, "HANDS/stage/<guest>", "hands_t"},
+    {Signal::kFace, Where::kCapture, "FACE/capture/<guest>", "face_t"},
+    {Signal::kFace, Where::kGuest, "FACE/guest/<guest>", "face_t"},
     {Signal::kGuest, Where::kStage, "GUEST/stage/<guest>", "guest_t"},
     {Signal::kStageTime, Where::kView, "STAGE_TIME/view/<guest>", "stage_time_t"},
     {Signal::kMusic, Where::kCapture, "MUSIC/capture/<guest>", "music_t"},

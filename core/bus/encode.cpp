@@ -46,6 +46,17 @@ struct MessageFields<Hands> {
 };
 
 template <>
+struct MessageFields<Face> {
+  using Generated = dancelcm::face_t;
+  static bool map(auto io, auto& m, auto& v) {
+    return io(m.capture_time_us, v.capture_time) && io(m.clock_id, v.clock_id) &&
+           io(m.sequence, v.sequence) && io(m.presence, v.presence) && io(m.weight, v.weight) &&
+           io(m.head_xyzw, v.R_PB) && io(m.gaze_rad, v.gaze_rad);
+  }
+  static void mask(Face& face) { face.presence &= kFaceSeen | kGazeSeen; }
+};
+
+template <>
 struct MessageFields<TimedSkeleton> {
   using Generated = dancelcm::skeleton_t;
   static bool map(auto io, auto& m, auto& v) {

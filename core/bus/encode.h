@@ -23,6 +23,7 @@
 #include "core/bus/messages.h"
 #include "core/bus/state_messages.h"
 #include "core/bus/voice.h"
+#include "core/pose/face.h"
 #include "core/pose/pose.h"
 #include "core/signal/flow_setting.h"
 #include "core/signal/haptic.h"

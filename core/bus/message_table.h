@@ -37,4 +37,5 @@
   ROW(HouseLink, kHouseLink, "HOUSE_LINK")          \
   ROW(Removal, kRemoval, "REMOVAL")                 \
   ROW(VoiceLevel, kVoiceLevel, "VOICE_LEVEL")       \
-  ROW(InterestWish, kInterest, "INTEREST")
+  ROW(InterestWish, kInterest, "INTEREST")          \
+  ROW(Face, kFace, "FACE")

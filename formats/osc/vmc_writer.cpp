@@ -1,5 +1,7 @@
 #include "formats/osc/vmc_writer.h"
 
+#include <algorithm>
+
 #include "formats/osc/average_hand.h"
 #include "formats/osc/unity_axes.h"
 
@@ -56,7 +58,29 @@ void VmcWriter::add_transform(const char* address, const char* name, const Eigen
   bundles_.add(address, {name, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()});
 }
 
-void VmcWriter::write_pose(const Pose& pose, const Hands* hands, float time_s) {
+void VmcWriter::add_expressions(const Face& face) {
+  const auto add = [this](const char* name, float value) {
+    bundles_.add("/VMC/Ext/Blend/Val", {name, value});
+  };
+  for (std::size_t i = 0; i < kExpressionCount; ++i) add(kExpressionNames[i], face.weight[i]);
+  using E = Expression;
+  const bool is_vrm0 = dialect_ == VmcDialect::kVrm0;
+  const float open = face[E::kJawOpen], round = face[E::kMouthFunnel];
+  const float wide = 0.5f * (face[E::kMouthStretchLeft] + face[E::kMouthStretchRight]);
+  const float left = face[E::kEyeBlinkLeft], right = face[E::kEyeBlinkRight];
+  add(is_vrm0 ? "A" : "aa", open * (1.0f - round));
+  add(is_vrm0 ? "I" : "ih", wide * (1.0f - open));
+  add(is_vrm0 ? "U" : "ou", face[E::kMouthPucker]);
+  add(is_vrm0 ? "E" : "ee", 0.5f * wide * open);
+  add(is_vrm0 ? "O" : "oh", round);
+  // Of both eyes, and what one does beyond that.
+  const float both = std::min(left, right);
+  add(is_vrm0 ? "Blink" : "blink", both);
+  add(is_vrm0 ? "Blink_L" : "blinkLeft", left - both);
+  add(is_vrm0 ? "Blink_R" : "blinkRight", right - both);
+}
+
+void VmcWriter::write_pose(const Pose& pose, const Hands* hands, float time_s, const Face* face) {
   const Eigen::Quaternionf at_rest = Eigen::Quaternionf::Identity();
   add_state(true, true, time_s);
   add_transform("/VMC/Ext/Root/Pos", "root", Eigen::Vector3f::Zero(), at_rest);
@@ -71,9 +95,13 @@ void VmcWriter::write_pose(const Pose& pose, const Hands* hands, float time_s) {
       add_transform("/VMC/Ext/Bone/Pos", bone.name, p_m,
                     bone.is_finger() && hands ? hands->R_PB[bone.finger()] : at_rest);
   }
-  // Dancers have no face yet. Receivers that wait for Apply get it, and the one name leaves what
-  // another program sends of the face as it is.
-  bundles_.add("/VMC/Ext/Blend/Val", {dialect_ == VmcDialect::kVrm0 ? "Neutral" : "neutral", 1.0f});
+  // Receivers that wait for Apply get it; of a dancer without a face one name leaves what another
+  // program sends of it as it is.
+  if (face)
+    add_expressions(*face);
+  else
+    bundles_.add("/VMC/Ext/Blend/Val",
+                 {dialect_ == VmcDialect::kVrm0 ? "Neutral" : "neutral", 1.0f});
   bundles_.add("/VMC/Ext/Blend/Apply", {});
   bundles_.flush();
 }

@@ -19,6 +19,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "core/pose/face.h"
 #include "core/pose/pose.h"
 #include "core/pose/skeleton.h"
 #include "formats/osc/osc_bundle_writer.h"
@@ -34,8 +35,9 @@ class VmcWriter {
   VmcWriter(OscPacketSink& sink, VmcDialect dialect);
 
   void set_skeleton(const Skeleton& skeleton);
-  // A whole frame: state, time, root, bones, blend shapes. hands: nullptr = at rest.
-  void write_pose(const Pose& pose, const Hands* hands, float time_s);
+  // A whole frame: state, time, root, bones, blend shapes. hands: nullptr = at rest; face: nullptr
+  // = what another program sends of it stays as it is.
+  void write_pose(const Pose& pose, const Hands* hands, float time_s, const Face* face = nullptr);
   // That the sender is there while no pose is: before the dancer comes, and while they are silent.
   void write_silence(bool has_dancer, float time_s);
   // Which dancer this is: as the title of a model that the receiver does not have to load.
@@ -43,6 +45,8 @@ class VmcWriter {
 
  private:
   void add_state(bool has_dancer, bool is_tracked, float time_s);
+  // The 52 of ARKit by their names ("perfect sync"), and what VRM's own make of them.
+  void add_expressions(const Face& face);
   void add_transform(const char* address, const char* name, const Eigen::Vector3f& p_m,
                      const Eigen::Quaternionf& R);
 

@@ -44,7 +44,6 @@ class CaptureEval {
   std::unique_ptr<LandmarkNetwork> other_;
   Extras extras_;
   std::optional<HandTracker> hands_;
-  std::optional<FaceNetworks> face_networks_;
   std::optional<FaceTracker> face_;
   std::unique_ptr<HandsEval> judge_;  // of a video
   std::uint64_t in_sequence_ = 0;
@@ -73,10 +72,10 @@ Result<void> CaptureEval::open() {
     hands_.emplace(*extras_.hands);
   }
   if (options_.sees_face) {
-    DANCE_TRY(face_networks_,
+    DANCE_TRY(extras_.face,
               FaceNetworks::open(chosen_engine(options_.estimator.engine),
                                  pose_models_folder(options_.estimator.models_folder)));
-    face_.emplace(*face_networks_);
+    face_.emplace(*extras_.face);
   }
   if (!options_.compares_engines) return {};
   EngineComparison& engines = run_.engines;
@@ -121,13 +120,13 @@ Result<void> CaptureEval::take(PoseEstimator& estimator, const Frame& frame, std
     for (const HandSide side : {HandSide::kLeft, HandSide::kRight})
       run_.frames.back().hands[static_cast<std::size_t>(side)] = hands_->look(frame, body, side);
     run_.hands_ms += ms_since(hands_start_ns);
-    if (judge_) judge_->see(frame, body, estimator.unfiltered());
   }
   if (face_) {
     const std::int64_t face_start_ns = thread_time_ns();
     run_.frames.back().face = face_->look(frame, body);
     run_.face_ms += ms_since(face_start_ns);
   }
+  if (judge_) judge_->see(frame, body, estimator.unfiltered());
   return other_ && body.found ? compare(estimator) : Result<void>{};
 }
 
@@ -152,7 +151,7 @@ Result<void> CaptureEval::add_video(const std::string& path) {
   moving_->reset();
   if (hands_) hands_->reset();
   if (face_) face_->reset();
-  if (options_.judges_hands && hands_)
+  if (options_.judges_hands && (hands_ || face_))
     judge_ = std::make_unique<HandsEval>(extras_, reel->width_px(), reel->height_px());
   Frame frame;
   for (std::uint64_t i = 0;; ++i) {

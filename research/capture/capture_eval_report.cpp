@@ -124,6 +124,12 @@ std::string capture_eval_table(const CaptureRun& run, const CaptureEvalOptions& 
                    h.palm_tremble_deg, h.solver_tremble_deg, h.palm_off_deg, h.solver_off_deg,
                    h.finger_tremble_deg);
   }
+  if (const HandFigures& h = run.hands; h.faces > 0)
+    fmt::format_to(out,
+                   "  a face of the last video: {:.1f} bytes, {:.1f} expressions shown, a weight "
+                   "changes by {:.4f} from picture to picture; the head is {:.1f} deg from the "
+                   "body's\n",
+                   h.face_bytes, h.shown, h.face_change, h.head_off_deg);
   const EngineComparison& e = run.engines;
   if (e.regions > 0) {
     fmt::format_to(out, "\n  the network on the same {} regions\n", e.regions);

@@ -1,7 +1,9 @@
 #include "research/capture/hands_eval.h"
 
+#include <cmath>
 #include <numbers>
 
+#include "core/codec/face_codec.h"
 #include "producers/camera/hands/palm_wrist.h"
 
 namespace dance {
@@ -32,9 +34,11 @@ void HandsEval::see(const Frame& frame, const BodyLandmarks& body,
   ++sums_.pictures;
   const Pose solved = pose;
   seen_.steady_wrists(pose);
+  pose_ = pose;
   const Eigen::Matrix3f R_WC = solver_.camera_stand().R_WC.cast<float>();
   seen_.look({frame, body, pose, R_WC, guest_, *this});
   for (const HandSide side : {HandSide::kLeft, HandSide::kRight}) {
+    if (!seen_.hands()) break;
     const HandLandmarks& hand = seen_.hands()->hand(side);
     const Bone bone = side == HandSide::kLeft ? Bone::kLeftHand : Bone::kRightHand;
     const auto s = static_cast<std::size_t>(side);
@@ -53,6 +57,21 @@ void HandsEval::see(const Frame& frame, const BodyLandmarks& body,
     }
     add(s, moment);
   }
+}
+
+void HandsEval::capture_face(const GuestId&, const Face& face) {
+  if (face.presence == 0 || !seen_.knows_rest()) return;
+  constexpr float kClearlyShown = 0.1f;
+  std::array<std::uint8_t, kMaxFacePayload> payload;
+  ++sums_.faces;
+  sums_.face_bytes += static_cast<double>(encode_face(face, payload));
+  for (std::size_t i = 0; i < kExpressionCount; ++i) {
+    sums_.shown += face.weight[i] > kClearlyShown ? 1.0 : 0.0;
+    sums_.face_change += static_cast<double>(std::abs(face.weight[i] - last_face_.weight[i])) /
+                         static_cast<double>(kExpressionCount);
+  }
+  sums_.head_off_deg += degrees_between(face.R_PB, pose_.R_PB[index_of(Bone::kHead)]);
+  last_face_ = face;
 }
 
 void HandsEval::add(std::size_t side, const Moment& after) {
@@ -79,6 +98,8 @@ HandFigures HandsEval::figures() const {
        {&means.solver_tremble_deg, &means.palm_tremble_deg, &means.finger_tremble_deg})
     mean(*sum, means.trembles);
   for (double* sum : {&means.solver_off_deg, &means.palm_off_deg}) mean(*sum, means.hands);
+  for (double* sum : {&means.face_bytes, &means.shown, &means.face_change, &means.head_off_deg})
+    mean(*sum, means.faces);
   return means;
 }
 

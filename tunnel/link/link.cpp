@@ -211,8 +211,9 @@ bool Link::use_socket_to(std::size_t which) {
   return true;
 }
 
-void Link::send_channel(std::string_view name, wire::Bytes message, MonoTime now) {
-  core_.send_channel(name, message, now);
+void Link::send_channel(std::string_view name, wire::Bytes message, MonoTime now,
+                        const GuestId& guest) {
+  core_.send_channel(name, message, now, guest);
   rearm();
 }
 

@@ -46,7 +46,9 @@ class Link {
     core_.send(guest, signal, now);
     rearm();
   }
-  void send_channel(std::string_view name, wire::Bytes message, MonoTime now);
+  // Whose channel it is; where that is not set, the rule or the house's first guest decides.
+  void send_channel(std::string_view name, wire::Bytes message, MonoTime now,
+                    const GuestId& guest = GuestId());
 
   // Files of avatars: what the link offers and fetches. fetch_file() as LinkFiles::fetch().
   LinkCore& core() { return core_; }

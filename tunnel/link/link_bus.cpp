@@ -1,11 +1,16 @@
 #include "tunnel/link/link_bus.h"
 
+#include "core/base/assert.h"
+#include "core/codec/face_codec.h"
 #include "core/net/mono_clock.h"
 
 namespace dance {
 namespace {
 
 constexpr Duration kWishHolds = Duration::s(2);
+constexpr std::string_view kFaceChannels = "FACES/*";
+constexpr std::string_view kFacePrefix = "FACES/";
+constexpr double kMostFaces_hz = 120.0;
 
 }  // namespace
 
@@ -50,9 +55,46 @@ LinkHandlers LinkBus::handlers() {
     port_.publish(Where::kRoom, setter, scene);
   };
   handlers.on_channel = [this](const GuestId& guest, std::string_view name, ChannelClass kind,
-                               wire::Bytes message,
-                               MonoTime) { on_channel(guest, name, kind, message); };
+                               wire::Bytes message, MonoTime now) {
+    if (name.starts_with(kFacePrefix) && kind == ChannelClass::kNewest)
+      on_face(guest, message, now);
+    else
+      on_channel(guest, name, kind, message);
+  };
   return handlers;
+}
+
+ChannelRule LinkBus::face_rule() {
+  ChannelRule rule;
+  const auto pattern = ChannelPattern::parse(kFaceChannels);
+  DANCE_ASSERT(pattern.has_value());
+  rule.pattern = *pattern;
+  rule.kind = ChannelClass::kNewest;
+  rule.max_bytes = kMaxFacePayload;
+  rule.layout = *LayoutCheck::parse("any");
+  rule.rate_hz = kMostFaces_hz;
+  return rule;
+}
+
+void LinkBus::send_face(const GuestId& guest, const Face& face, MonoTime now) {
+  std::array<std::uint8_t, kMaxFacePayload> payload;
+  const std::size_t size = encode_face(face, payload);
+  if (size == 0) return;
+  std::array<char, kMaxForeignName> name;
+  const auto end = std::copy(kFacePrefix.begin(), kFacePrefix.end(), name.begin());
+  const std::string_view id = guest.view();
+  const auto length = static_cast<std::size_t>(std::copy(id.begin(), id.end(), end) - name.begin());
+  link_->send_channel({name.data(), length}, {payload.data(), size}, now, guest);
+}
+
+// Its time is that of its arrival: a face is shown as it comes.
+void LinkBus::on_face(const GuestId& guest, wire::Bytes message, MonoTime now) {
+  Face face;
+  if (!decode_face(message, face)) return;
+  face.sequence = ++faces_heard_;
+  face.clock_id = clock_id_;
+  face.capture_time = now;
+  port_.publish(Where::kGuest, guest, face);
 }
 
 void LinkBus::on_channel(const GuestId& guest, std::string_view name, ChannelClass kind,
@@ -91,13 +133,17 @@ void LinkBus::send_signals_of(const GuestId& guest) {
         [this](const Channel& channel, const AvatarFile& file, MonoTime now) {
           avatars_->choose(channel.guest(), file, now);
         });
+  port_.subscribe<Face>({Where::kCapture, guest},
+                        [this](const Channel& channel, const Face& face, MonoTime now) {
+                          send_face(channel.guest(), face, now);
+                        });
   send_each<Hands, Voice, Music, Scene, Avatar, Style, Placement>(guest);
 }
 
 void LinkBus::send_channels(const std::vector<ChannelRule>& rules) {
   rules_ = rules;
   for (const ChannelRule& rule : rules_) {
-    if (!rule.is_out) continue;
+    if (!rule.is_out || rule.pattern.text() == kFaceChannels) continue;
     // Longer ones too, a little: the link counts them.
     bus_.on_raw(rule.pattern, Delivery::kNewest, 2 * kMaxChannelNewestBytes,
                 [this, rule = &rule](std::string_view name, const void* data, std::size_t size,

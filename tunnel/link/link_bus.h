@@ -44,6 +44,9 @@ class LinkBus {
   // From now on what is captured and chosen by this guest goes to the link; by everybody where the
   // guest is not set.
   void send_signals_of(const GuestId& guest);
+  // Faces travel as messages of a further channel, so that no server and no older link has to know
+  // them. To be added to the rules that the link is opened with.
+  static ChannelRule face_rule();
   // And the channels that the rules let out.
   void send_channels(const std::vector<ChannelRule>& rules);
   // Of the voices that `own` lets in, only those come that a guest of this house wants, while any
@@ -79,6 +82,8 @@ class LinkBus {
   void tell_wishes(MonoTime now);
   bool is_of_now(std::uint64_t clock_id, MonoTime said, MonoTime now) const;
   void publish_status(MonoTime now);
+  void send_face(const GuestId& guest, const Face& face, MonoTime now);
+  void on_face(const GuestId& guest, wire::Bytes message, MonoTime now);
   void on_channel(const GuestId& guest, std::string_view name, ChannelClass kind,
                   wire::Bytes message);
 
@@ -91,6 +96,7 @@ class LinkBus {
   std::map<GuestId, Known> known_;
   std::optional<std::pair<GuestId, Scene>> scene_;
   std::vector<ChannelRule> rules_;
+  std::uint32_t faces_heard_ = 0;
   Hearing own_hearing_;
   HearingWishes wishes_;
   std::optional<Interest> own_interest_;  // not set: windows are not asked

@@ -114,8 +114,9 @@ void LinkCore::send(const GuestId& id, const Music& music, MonoTime now) {
 void LinkCore::send(const GuestId& id, const Scene& scene, MonoTime now) {
   room_.send(id, scene, now);
 }
-void LinkCore::send_channel(std::string_view name, wire::Bytes message, MonoTime now) {
-  channels_.send(name, message, now);
+void LinkCore::send_channel(std::string_view name, wire::Bytes message, MonoTime now,
+                            const GuestId& guest) {
+  channels_.send(name, message, now, guest);
 }
 
 // From the server.

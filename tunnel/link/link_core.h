@@ -62,7 +62,9 @@ class LinkCore {
   void send(const GuestId& guest, const Music& music, MonoTime now);
   void send(const GuestId& guest, const Scene& scene, MonoTime now);
   // A message of a further channel, where a rule of the options lets it out.
-  void send_channel(std::string_view name, wire::Bytes message, MonoTime now);
+  // Whose channel it is; where that is not set, the rule or the house's first guest decides.
+  void send_channel(std::string_view name, wire::Bytes message, MonoTime now,
+                    const GuestId& guest = GuestId());
   // Whom the server is to send, and how often: told until it is acknowledged. For guests who are
   // not here, it counts when they come.
   void set_interest(const Interest& interest, MonoTime now);

@@ -112,7 +112,10 @@ void add_talk(LinkHandlers& handlers, LinkBus& link_bus, const LinkProgramOption
 }
 
 Result<void> run_link(const LinkProgramOptions& given) {
-  DANCE_TRY(const LinkOptions options, checked(given));
+  DANCE_TRY(LinkOptions options, checked(given));
+  // Channels come of no guest of whom no pose is wanted.
+  const bool lets_any = lets_any_in(options.channels);
+  options.channels.push_back(LinkBus::face_rule());
   const GuestId first = options.guests.empty() ? GuestId() : options.guests[0];
   DANCE_TRY(const LinkKey key, choose_link_key(given.server, options.room, first, given.key));
   DANCE_TRY(const auto server, Address::resolve_all(given.server, kDefaultServerPort));
@@ -133,8 +136,7 @@ Result<void> run_link(const LinkProgramOptions& given) {
   for (const GuestId& guest : options.guests) link_bus.send_signals_of(guest);
   if (!options.listen_only) link_bus.send_channels(options.channels);
   link_bus.follow_hearing(options.hearing);
-  // Channels come of no guest of whom no pose is wanted.
-  if (!lets_any_in(options.channels)) link_bus.follow_interest(options.interest);
+  if (!lets_any) link_bus.follow_interest(options.interest);
   link_bus.follow_removals();
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
   const MonoTime begin = mono_now();

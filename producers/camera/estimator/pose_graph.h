@@ -1,6 +1,7 @@
 // PoseGraph: a neural network as the engines run it: tensors, and the few operations that the
 // networks of body, hands and face are made of, in the order in which they are computed. What a
-// file leaves to be worked out (SAME padding, half-precision and sparse weights) is worked out here.
+// file leaves to be worked out (SAME padding, half-precision and sparse weights) is worked out
+// here.
 //
 // Units/frames: tensors of four dimensions are batch (1), rows, columns, channels; weights of a
 //               convolution are output channel, row, column, input channel; of a depthwise one 1,

@@ -13,14 +13,17 @@ constexpr Bone hand_bone(HandSide side) {
 }  // namespace
 
 HandsAndFace::HandsAndFace(Extras& extras, const ExtraOptions& options)
-    : extras_(&extras), options_(options), fingers_(options.smooth) {
+    : extras_(&extras), options_(options), fingers_(options.smooth), expressions_(options.smooth) {
   if (extras.hands) hands_.emplace(*extras.hands);
+  if (extras.face) face_.emplace(*extras.face);
 }
 
 void HandsAndFace::reset() {
   if (hands_) hands_->reset();
   fingers_.reset();
   wrists_.reset();
+  if (face_) face_->reset();
+  expressions_.reset();
 }
 
 void HandsAndFace::steady_wrists(Pose& pose) {
@@ -59,26 +62,48 @@ void HandsAndFace::publish_hands(const Picture& picture) {
   picture.sink.capture(picture.guest, hands);
 }
 
+void HandsAndFace::publish_face(const Picture& picture) {
+  Face face;
+  const bool is_any = expressions_.write(picture.frame.capture_time, face);
+  if (!is_any && has_said_rest_) return;
+  has_said_rest_ = !is_any;
+  if (expressions_.is_seen()) face.R_PB = Eigen::Quaternionf(picture.R_WC) * expressions_.R_CHead();
+  if (options_.is_mirrored) mirror(face);
+  face.R_PB = expressions_.is_seen()
+                  ? (rotation_in_W(picture.pose, Bone::kNeck).conjugate() * face.R_PB).normalized()
+                  : picture.pose.R_PB[index_of(Bone::kHead)];
+  face.sequence = picture.pose.sequence;
+  face.clock_id = picture.pose.clock_id;
+  face.capture_time = picture.pose.capture_time;
+  picture.sink.capture_face(picture.guest, face);
+}
+
+HandsAndFace::Due HandsAndFace::due(LoadStep step, std::uint64_t turn) {
+  switch (step) {
+    case LoadStep::kAll:
+      return {true, true, true};
+    case LoadStep::kAlternating:
+      return {turn % 2 == 0, turn % 2 == 1, turn % 2 == 0};
+    case LoadStep::kOneInTurn:
+      return {turn % 6 == 0, turn % 6 == 2, turn % 6 == 4};
+    case LoadStep::kBodyOnly:
+      break;
+  }
+  return {};
+}
+
 void HandsAndFace::look(const Picture& picture) {
-  const std::uint64_t turn = pictures_++;
-  const auto is_due = [&](HandSide side) {
-    const auto own = static_cast<std::uint64_t>(side);
-    switch (extras_->load.step()) {
-      case LoadStep::kAll:
-        return true;
-      case LoadStep::kAlternating:
-        return turn % 2 == own;
-      case LoadStep::kOneInTurn:
-        return turn % 6 == 2 * own;
-      case LoadStep::kBodyOnly:
-        break;
-    }
-    return false;
-  };
-  if (!hands_) return;
-  for (const HandSide side : {HandSide::kLeft, HandSide::kRight})
-    if (is_due(side)) look_at_hand(picture, side);
-  publish_hands(picture);
+  const Due is_due = due(extras_->load.step(), pictures_++);
+  if (hands_) {
+    if (is_due.left) look_at_hand(picture, HandSide::kLeft);
+    if (is_due.right) look_at_hand(picture, HandSide::kRight);
+    publish_hands(picture);
+  }
+  if (face_) {
+    if (is_due.face)
+      expressions_.see(face_->look(picture.frame, picture.body), picture.frame.capture_time);
+    publish_face(picture);
+  }
 }
 
 }  // namespace dance

@@ -6,8 +6,8 @@
 // Threads:      one owner.
 // Failure:      make() gives an Error. The others give nothing where a network refuses to run or
 //               makes what is no number.
-// Source:       BlazeFace (Bazarevsky et al. 2019), the models face_detection_short_range.tflite and
-//               face_landmark.tflite, and what belongs to their numbers in the graphs of
+// Source:       BlazeFace (Bazarevsky et al. 2019), the models face_detection_short_range.tflite
+//               and face_landmark.tflite, and what belongs to their numbers in the graphs of
 //               @mediapipe/holistic 0.5.1675471629.
 #pragma once
 

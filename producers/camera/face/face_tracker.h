@@ -1,5 +1,6 @@
 // FaceTracker: the points of a dancer's face from picture to picture. Where the face is comes from
-// the body and the detector; as long as it stays the same face, from its points in the last picture.
+// the body and the detector; as long as it stays the same face, from its points in the picture
+// before.
 //
 // Units/frames: as producers/camera/face/face_landmarks.h says.
 // Ownership:    refers to the networks, which all dancers share and which must outlive it; no heap.

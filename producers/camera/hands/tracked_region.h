@@ -1,7 +1,8 @@
 // Regions that follow a part of the body from picture to picture: whether what was seen in the last
 // picture is what a detector finds in this one.
 //
-// Units/frames: pixels as in producers/camera/body_landmarks.h; y points down, angles are clockwise.
+// Units/frames: pixels as in producers/camera/body_landmarks.h; y points down, angles are
+//               clockwise.
 // Ownership:    plain values.
 // Threads:      none inside.
 // Failure:      none.

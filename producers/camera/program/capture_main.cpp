@@ -120,6 +120,9 @@ int main(int argc, char** argv) {
       "--hands", options.hands,
       {{"auto", Hands::kWhereTheirNetworksAre}, {"on", Hands::kOn}, {"off", Hands::kOff}},
       "fingers, and wrists that follow the palms; auto: where their networks are");
+  line.add_flag("--face", options.has_face,
+                "the expression of the face, too: 52 numbers, head and no picture, which the "
+                "others in the room get");
   line.add_flag("--preview", options.has_preview, "a window with the skeleton over the picture");
   line.add("--preview-file", options.preview_file,
            "the same as a picture file, .jpg or .png, rewritten five times a second");

@@ -47,6 +47,7 @@ struct CaptureOptions {
   // hands and face
   enum class Hands { kWhereTheirNetworksAre, kOn, kOff };
   Hands hands = Hands::kWhereTheirNetworksAre;
+  bool has_face = false;  // numbers of the expression leave the house
 
   // what comes out beside poses
   bool has_preview = false;

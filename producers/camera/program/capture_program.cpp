@@ -112,14 +112,19 @@ Result<void> CaptureProgram::open_chain() {
 }
 
 Result<void> CaptureProgram::open_extras() {
+  using Wish = CaptureOptions::Hands;
   const std::string folder = pose_models_folder(options_.models_folder);
-  const bool are_there = HandNetworks::are_in(folder);
-  if (options_.hands == CaptureOptions::Hands::kOff) return {};
-  if (!are_there && options_.hands == CaptureOptions::Hands::kWhereTheirNetworksAre) {
+  const bool may_lack = options_.hands == Wish::kWhereTheirNetworksAre;
+  if (may_lack && !HandNetworks::are_in(folder)) {
     talk::info("hands are not seen: their networks are missing; `dance fetch-models` fetches them");
-    return {};
+  } else if (options_.hands != Wish::kOff) {
+    DANCE_TRY(extras_.hands, HandNetworks::open(options_.engine, folder));
   }
-  DANCE_TRY(extras_.hands, HandNetworks::open(options_.engine, folder));
+  if (options_.has_face) {
+    DANCE_TRY(extras_.face, FaceNetworks::open(options_.engine, folder));
+    talk::info("the face is seen: 52 numbers of its expression and the head's turn go to the room");
+  }
+  if (!extras_.hands && !extras_.face) return {};
   for (const auto& dancer : chain_->dancers())
     dancer->enable_extras(std::make_unique<HandsAndFace>(
         extras_, ExtraOptions{options_.smooth, options_.is_mirrored}));
@@ -223,7 +228,8 @@ void CaptureProgram::look(const CaptureFrame& seen) {
   if (!has_usual_size(seen.left.image)) return;
   chain_->see(seen.left, seen.right.empty() ? nullptr : &seen.right);
   const MonoTime now = mono_now();
-  if (extras_.hands && extras_.load.add(now - seen.left.fetched, last_picture_ - before, now))
+  if ((extras_.hands || extras_.face) &&
+      extras_.load.add(now - seen.left.fetched, last_picture_ - before, now))
     talk::info("this machine's speed: {}", text_of(extras_.load.step()));
   // The pose is sent; nothing below blocks.
   const std::string_view advice = advice_.see(seen.left.image, chain_->bodies().front());

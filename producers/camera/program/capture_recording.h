@@ -51,6 +51,9 @@ class CaptureRecording : public CaptureSink {
   void capture(const GuestId& guest, Pose& pose, MonoTime now) override;
   void capture(const GuestId& guest, const Hands& hands) override;
   void capture(const GuestId& guest, const TimedSkeleton& skeleton) override;
+  void capture_face(const GuestId& guest, const Face& face) override {
+    behind_.capture_face(guest, face);
+  }
 
  private:
   static constexpr std::size_t kWaiting = 1024;  // eight seconds of poses and hands at 60 Hz

@@ -1,5 +1,5 @@
-// Hands beside those of the npm package @mediapipe/holistic itself, which runs in Chromium on the
-// same pixels.
+// Hands and face beside those of the npm package @mediapipe/holistic itself, which runs in Chromium
+// on the same pixels.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "producers/camera/estimator/pose_estimator.h"
+#include "producers/camera/face/face_tracker.h"
 #include "producers/camera/hands/hand_tracker.h"
 #include "tests/apps/run_program.h"
 #include "tests/producers/camera/estimator/pose_models.h"
@@ -26,8 +27,9 @@ std::string why_not() {
     return "@mediapipe/holistic is missing; tests/clients/fetch_clients.sh fetches it";
   if (run("chromium --version").exit_code != 0)
     return "chromium is missing; apt-get install chromium";
-  if (!HandNetworks::are_in(pose_models_folder("")))
-    return "the networks of hands are missing: ./dance setup fetches them";
+  const std::string folder = pose_models_folder("");
+  if (!HandNetworks::are_in(folder) || !FaceNetworks::are_in(folder))
+    return "the networks of hands and face are missing: `dance fetch-models` fetches them";
   return "";
 }
 
@@ -74,7 +76,7 @@ double worst_percent(std::span<const Eigen::Vector3f> points, const nlohmann::js
   return 100.0 * worst / static_cast<double>(side_px);
 }
 
-TEST_F(Holistic, HandsAreWithinATenthOfAPercentOfTheirRegion) {
+TEST_F(Holistic, HandsAndFaceAreWithinATenthOfAPercentOfTheirRegion) {
   std::vector<cv::Mat> pictures;
   VideoPictures video(taiji_video());
   cv::Mat image;
@@ -88,8 +90,11 @@ TEST_F(Holistic, HandsAreWithinATenthOfAPercentOfTheirRegion) {
   auto networks = HandNetworks::open(EngineKind::kFastest, pose_models_folder(""));
   ASSERT_TRUE(networks) << networks.error().what;
   HandTracker tracker(*networks);
+  auto face_networks = FaceNetworks::open(EngineKind::kFastest, pose_models_folder(""));
+  ASSERT_TRUE(face_networks) << face_networks.error().what;
+  FaceTracker face_tracker(*face_networks);
   int compared = 0;
-  double worst = 0.0;
+  double worst = 0.0, worst_face = 0.0;
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     const Frame frame{pictures[i],
                       MonoTime{} + Duration::seconds(1.0 + static_cast<double>(i) / kVideo_hz), i};
@@ -104,10 +109,16 @@ TEST_F(Holistic, HandsAreWithinATenthOfAPercentOfTheirRegion) {
       worst = std::max(worst, off);
       EXPECT_LE(off, 0.1) << "frame " << i;
     }
+    const FaceLandmarks& face = face_tracker.look(frame, body);
+    ASSERT_EQ(face.found, !due[i]["face"].empty()) << "frame " << i;
+    if (!face.found) continue;
+    const double off = worst_percent(face.image_px, due[i]["face"], face.region.side_px);
+    worst_face = std::max(worst_face, off);
+    EXPECT_LE(off, 0.1) << "face of frame " << i;
   }
   EXPECT_GE(compared, 12);
-  std::printf("%d hands in %zu pictures: worst point %.4f %% of its region\n", compared,
-              pictures.size(), worst);
+  std::printf("%d hands in %zu pictures: worst point %.4f %% of its region; faces %.4f %%\n",
+              compared, pictures.size(), worst, worst_face);
 }
 
 }  // namespace

@@ -31,14 +31,27 @@ InterestWish golden_interest() {
 
 VoiceLevel golden_voice_level() { return {kCaptured, kClock, -23, -31}; }
 
+Face golden_face() {
+  Face face;
+  for (std::size_t i = 0; i < kExpressionCount; ++i) face.weight[i] = static_cast<float>(i) / 64.0f;
+  face.gaze_rad = {0.25f, -0.5f};
+  face.presence = kFaceSeen | kGazeSeen;
+  face.sequence = 4'000'000'000u;
+  face.clock_id = kClock;
+  face.capture_time = kCaptured;
+  return face;
+}
+
 TEST(GoldenHouse, IsWrittenAndReadByteForByte) {
   expect_golden("house_link_t", golden_house_link());
   expect_golden("removal_t", golden_removal());
   expect_golden("voice_level_t", golden_voice_level());
   expect_golden("interest_t", golden_interest());
+  expect_golden("face_t", golden_face());
 }
 
 TEST(GoldenHouse, SurvivesDamage) {
+  expect_survives_bit_flips<Face>("face_t");
   expect_survives_bit_flips<HouseLink>("house_link_t");
   expect_survives_bit_flips<Removal>("removal_t");
   expect_survives_bit_flips<VoiceLevel>("voice_level_t");

@@ -115,6 +115,36 @@ TEST(VmcWriter, WritesAKnownPoseAsUnityWouldSeeIt) {
   EXPECT_GT(bones.at("RightIndexProximal")[0], 0.0f);
 }
 
+TEST(VmcWriter, AFaceIsArKitsNamesAndVrmsOwn) {
+  for (const VmcDialect dialect : {VmcDialect::kVrm0, VmcDialect::kVrm1}) {
+    KeptPackets sink;
+    VmcWriter writer(sink, dialect);
+    Face face;
+    face[Expression::kJawOpen] = 0.5f;
+    face[Expression::kEyeBlinkLeft] = 1.0f;
+    face[Expression::kEyeBlinkRight] = 0.25f;
+    writer.write_pose(Pose(), nullptr, 1.0f, &face);
+    std::map<std::string, float> shown;
+    int applied = 0;
+    for (const DecodedOsc& message : sink.decoded()) {
+      if (message.address == "/VMC/Ext/Blend/Apply") ++applied;
+      if (message.address != "/VMC/Ext/Blend/Val") continue;
+      EXPECT_EQ(applied, 0) << "after what it applies";
+      shown[message.texts.at(0)] = message.floats.at(0);
+    }
+    EXPECT_EQ(applied, 1);
+    EXPECT_EQ(shown.size(), kExpressionCount + 8);
+    EXPECT_EQ(shown.at("jawOpen"), 0.5f);
+    EXPECT_EQ(shown.at("eyeBlinkLeft"), 1.0f);
+    const bool is_vrm0 = dialect == VmcDialect::kVrm0;
+    EXPECT_EQ(shown.at(is_vrm0 ? "A" : "aa"), 0.5f);
+    EXPECT_EQ(shown.at(is_vrm0 ? "Blink" : "blink"), 0.25f);
+    EXPECT_EQ(shown.at(is_vrm0 ? "Blink_L" : "blinkLeft"), 0.75f);
+    EXPECT_EQ(shown.at(is_vrm0 ? "Blink_R" : "blinkRight"), 0.0f);
+    EXPECT_FALSE(shown.contains("Neutral"));
+  }
+}
+
 TEST(VmcWriter, KeepsEachPacketWithinAnEthernetFrame) {
   KeptPackets kept;
   VmcWriter writer(kept, VmcDialect::kVrm1);

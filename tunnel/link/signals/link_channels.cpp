@@ -48,7 +48,8 @@ void LinkChannels::set_payload(Channel& channel, wire::Bytes message) {
   channel.state.change({payload.data(), size});
 }
 
-void LinkChannels::send(std::string_view name, wire::Bytes message, MonoTime now) {
+void LinkChannels::send(std::string_view name, wire::Bytes message, MonoTime now,
+                        const GuestId& guest) {
   const ChannelRule* rule = find_rule_out(link_.options.channels, name);
   if (rule == nullptr) {
     ++link_.counters.channels_unlisted;
@@ -60,6 +61,7 @@ void LinkChannels::send(std::string_view name, wire::Bytes message, MonoTime now
   }
   Channel* channel = find_or_add(name, *rule);
   if (channel == nullptr) return;
+  if (guest.is_set()) channel->guest = guest;
   const bool is_state = rule->kind == ChannelClass::kState;
   set_payload(*channel, is_state ? message : wire::Bytes());
   if (!link_.is_connected() || !bind(*channel)) {
@@ -101,6 +103,7 @@ LinkChannels::Channel* LinkChannels::find_or_add(std::string_view name, const Ch
   Channel& channel = channels_.emplace_back();
   [[maybe_unused]] const bool fits = channel.name.assign(name);
   channel.rule = &rule;
+  channel.guest = rule.guest;
   channel.changes = bucket_of(rule);
   return &channel;
 }
@@ -109,8 +112,7 @@ LinkChannels::Channel* LinkChannels::find_or_add(std::string_view name, const Ch
 bool LinkChannels::bind(Channel& channel) {
   const auto owner =
       std::find_if(link_.locals.begin(), link_.locals.end(), [&](const LocalGuest& guest) {
-        return guest.has_slot &&
-               (channel.rule->guest.is_set() ? guest.id == channel.rule->guest : true);
+        return guest.has_slot && (channel.guest.is_set() ? guest.id == channel.guest : true);
       });
   if (owner == link_.locals.end()) {
     channel.is_bound = false;

@@ -21,7 +21,9 @@ class LinkChannels {
  public:
   LinkChannels(LinkContext& link, LinkSender& sender);
 
-  void send(std::string_view name, wire::Bytes message, MonoTime now);
+  // Of that guest; where none is set, of whom the rule says, or the house's first.
+  void send(std::string_view name, wire::Bytes message, MonoTime now,
+            const GuestId& guest = GuestId());
   void on_record(const wire::Record& record, MonoTime now);
   // False where it is to come again, as it comes too fast.
   bool on_state(RemoteGuest& remote, const wire::State& state, MonoTime now);
@@ -38,6 +40,7 @@ class LinkChannels {
     ForeignName name;
     const ChannelRule* rule = nullptr;
     TokenBucket changes;
+    GuestId guest;  // whose it is; not set: the first one's
     // Whose it is at the server, once that guest has a slot there.
     bool is_bound = false;
     wire::Slot slot;

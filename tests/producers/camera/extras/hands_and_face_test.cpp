@@ -17,8 +17,10 @@ class Sink : public CaptureSink {
   void capture(const GuestId&, Pose&, MonoTime) override { ++poses; }
   void capture(const GuestId&, const Hands& seen) override { hands.push_back(seen); }
   void capture(const GuestId&, const TimedSkeleton&) override {}
+  void capture_face(const GuestId&, const Face& seen) override { faces.push_back(seen); }
 
   std::vector<Hands> hands;
+  std::vector<Face> faces;
   int poses = 0;
 };
 
@@ -118,6 +120,26 @@ TEST_F(HandsInPictures, ASlowMachineLooksAtThemByTurns) {
   // A hand that is not looked for keeps its fingers until its next turn.
   for (std::size_t i = 0; i < 15; ++i)
     EXPECT_EQ(sink_.hands[1].R_PB[i].coeffs(), sink_.hands[0].R_PB[i].coeffs());
+}
+
+TEST_F(HandsInPictures, NoFaceIsPublishedUnlessItIsWantedAndThenItIs) {
+  HandsAndFace without(extras_, {});
+  look(without, pictures_[0], 0);
+  EXPECT_TRUE(sink_.faces.empty());
+  if (!FaceNetworks::are_in(pose_models_folder("")))
+    GTEST_SKIP() << "the networks of faces are missing: `dance fetch-models` fetches them";
+  auto networks = FaceNetworks::open(EngineKind::kFastest, pose_models_folder(""));
+  ASSERT_TRUE(networks);
+  extras_.face.emplace(std::move(*networks));
+  HandsAndFace seen(extras_, {});
+  for (std::uint32_t i = 0; i < 3; ++i) look(seen, pictures_[i], 1 + i);
+  ASSERT_EQ(sink_.faces.size(), 3u);
+  const Face& face = sink_.faces.back();
+  EXPECT_EQ(face.presence, kFaceSeen);
+  EXPECT_EQ(face.sequence, 103u);
+  EXPECT_TRUE(is_valid(face));
+  // The face at rest is not known yet: nothing is shown.
+  for (const float weight : face.weight) EXPECT_EQ(weight, 0.0f);
 }
 
 TEST(HandsAndFace, WithoutNetworksItDoesNothing) {

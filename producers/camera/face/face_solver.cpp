@@ -1,0 +1,187 @@
+#include "producers/camera/face/face_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dance {
+
+using Eigen::Quaternionf;
+using Eigen::Vector3f;
+
+namespace {
+
+// What noise makes of a face at rest.
+constexpr float kQuiet = 0.08f;
+constexpr OneEuroSetting kWeights{2.0, 1.5, 1.0};
+constexpr double kFaceFirst_hz = 30.0;
+constexpr Duration kFaceKept = Duration::ms(300);
+constexpr Duration kFaceFades = Duration::ms(700);
+// Further aside the points of the far half are guesses.
+constexpr float kLeastAhead = 0.7f;
+
+// By how many pixels points of a face at rest wander.
+constexpr float kNoise_px = 0.7f;
+
+// 0 at rest, 1 where the difference is `full`.
+float shown(float difference, float full) {
+  const float share = difference / full;
+  return std::clamp((share - kQuiet) / (1.0f - kQuiet), 0.0f, 1.0f);
+}
+
+struct Reading {
+  const FaceFeatures& is;
+  const FaceFeatures& rest;
+  std::array<float, kExpressionCount>& weight;
+
+  float more(std::size_t feature) const { return is[feature] - rest[feature]; }
+  float less(std::size_t feature) const { return rest[feature] - is[feature]; }
+  // As shares of what it is at rest.
+  float more_of(std::size_t feature) const {
+    return more(feature) / std::max(0.02f, rest[feature]);
+  }
+  void set(Expression e, float value) const { weight[index_of(e)] = value; }
+  // Of both sides: the right one's number is the next.
+  void set_side(Expression left, std::size_t side, float value) const {
+    weight[index_of(left) + side] = value;
+  }
+};
+
+void read_eyes(const Reading& r) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    const float lids = r.more_of(kLidGap + side);
+    r.set_side(Expression::kEyeBlinkLeft, side, shown(-lids, 0.75f));
+    r.set_side(Expression::kEyeWideLeft, side, shown(lids, 0.5f));
+    r.set_side(Expression::kEyeSquintLeft, side, shown(r.more(kLowerLid + side), 0.035f));
+    r.set_side(Expression::kBrowDownLeft, side, shown(r.less(kInnerBrow + side), 0.06f));
+    r.set_side(Expression::kBrowOuterUpLeft, side, shown(r.more(kOuterBrow + side), 0.09f));
+    r.set_side(Expression::kNoseSneerLeft, side, shown(r.more(kNoseWing + side), 0.06f));
+    r.set_side(Expression::kCheekSquintLeft, side, shown(r.less(kCheek + side), 0.08f));
+  }
+  r.set(Expression::kBrowInnerUp,
+        shown(0.5f * (r.more(kInnerBrow) + r.more(kInnerBrow + 1)), 0.09f));
+}
+
+void read_jaw(const Reading& r) {
+  const float open = r.more(kChinDown), aside = r.more(kChinLeft), gap = r.more(kLipGap);
+  r.set(Expression::kJawOpen, shown(open, 0.35f));
+  r.set(Expression::kMouthClose, shown(open - gap, 0.35f) * shown(open, 0.1f));
+  r.set(Expression::kJawLeft, shown(aside, 0.12f));
+  r.set(Expression::kJawRight, shown(-aside, 0.12f));
+}
+
+void read_lips(const Reading& r) {
+  const float narrow = -r.more_of(kMouthWidth), gap = r.more(kLipGap);
+  const float pursed = shown(narrow, 0.35f), parted = shown(gap, 0.15f);
+  r.set(Expression::kMouthFunnel, pursed * parted);
+  r.set(Expression::kMouthPucker, pursed * (1.0f - parted));
+  const float aside = 0.5f * (r.more(kMouthCornerOut) - r.more(kMouthCornerOut + 1));
+  r.set(Expression::kMouthLeft, shown(aside, 0.12f));
+  r.set(Expression::kMouthRight, shown(-aside, 0.12f));
+  const float upper = shown(-r.more_of(kUpperLipRed), 0.7f) * (1.0f - parted);
+  const float lower = shown(-r.more_of(kLowerLipRed), 0.7f) * (1.0f - parted);
+  r.set(Expression::kMouthRollUpper, upper);
+  r.set(Expression::kMouthRollLower, lower);
+  const float closed = (1.0f - parted) * (1.0f - shown(r.more(kChinDown), 0.15f));
+  r.set(Expression::kMouthShrugLower, shown(r.more(kLowerLipUp), 0.09f) * closed);
+  r.set(Expression::kMouthShrugUpper, shown(r.more(kUpperLipUp), 0.06f) * closed);
+  for (std::size_t side = 0; side < 2; ++side) {
+    const float up = r.more(kMouthCornerUp + side), out = r.more(kMouthCornerOut + side);
+    // An open jaw takes the corners down with it.
+    const float lifted = up + 0.25f * std::max(0.0f, r.more(kChinDown));
+    const float smile = shown(0.5f * out + lifted, 0.16f);
+    r.set_side(Expression::kMouthSmileLeft, side, smile);
+    r.set_side(Expression::kMouthFrownLeft, side, shown(-lifted, 0.08f));
+    r.set_side(Expression::kMouthStretchLeft, side, shown(out, 0.12f) * (1.0f - smile));
+    r.set_side(Expression::kMouthPressLeft, side, std::min(upper, lower));
+    r.set_side(Expression::kMouthUpperUpLeft, side,
+               shown(r.more(kUpperLip + side), 0.08f) * parted);
+    r.set_side(Expression::kMouthLowerDownLeft, side,
+               shown(r.less(kLowerLip + side), 0.08f) * parted);
+  }
+}
+
+}  // namespace
+
+std::array<float, kExpressionCount> expressions_of(const FaceFeatures& is, const FaceFeatures& rest,
+                                                   float noise) {
+  std::array<float, kExpressionCount> weight{};
+  // What is within the noise is as at rest, and what is beyond it begins there.
+  FaceFeatures clear;
+  for (std::size_t f = 0; f < kFaceFeatureCount; ++f) {
+    const float off = is[f] - rest[f];
+    clear[f] = rest[f] + (off > noise ? off - noise : off < -noise ? off + noise : 0.0f);
+  }
+  const Reading reading{clear, rest, weight};
+  read_eyes(reading);
+  read_jaw(reading);
+  read_lips(reading);
+  for (float& w : weight)
+    if (!std::isfinite(w)) w = 0.0f;
+  return weight;
+}
+
+// True once the face at rest is known: the median of each feature, so that a blink or a word is
+// none of it.
+bool FaceSolver::learn_rest(const FaceShape& shape) {
+  if (knows_rest()) return true;
+  sample_[samples_++] = shape.features;
+  if (!knows_rest()) return false;
+  for (std::size_t f = 0; f < kFaceFeatureCount; ++f) {
+    std::array<float, kSamples> values;
+    for (std::size_t i = 0; i < kSamples; ++i) values[i] = sample_[i][f];
+    std::nth_element(values.begin(), values.begin() + kSamples / 2, values.end());
+    rest_[f] = values[kSamples / 2];
+  }
+  return true;
+}
+
+void FaceSolver::see(const FaceLandmarks& face, MonoTime now) {
+  const auto shape = face.found ? shape_of(face) : std::nullopt;
+  is_seen_ = shape.has_value();
+  if (!shape) return;
+  R_CHead_ = shape->R_CHead;
+  const double passed_s = has_seen_ ? (now - seen_).as_seconds() : 0.0;
+  if (has_seen_ && now - seen_ > kFaceKept) filters_ = {};
+  seen_ = now;
+  has_seen_ = true;
+  // −z of the camera is towards it. A face that is turned far aside keeps its expression.
+  const float ahead = -(R_CHead_ * Vector3f::UnitZ()).z();
+  if (ahead < kLeastAhead || !learn_rest(*shape)) return;
+  const double hz = passed_s > 0.0 ? 1.0 / passed_s : kFaceFirst_hz;
+  OneEuroSetting setting = kWeights;
+  setting.min_cutoff_hz /= std::max(0.05, smooth_);
+  const auto seen = expressions_of(shape->features, rest_, kNoise_px / shape->eyes_px);
+  for (std::size_t i = 0; i < kExpressionCount; ++i)
+    weight_[i] = std::clamp(filters_[i].next(seen[i], hz, 1.0, setting), 0.0f, 1.0f);
+}
+
+bool FaceSolver::write(MonoTime now, Face& out) const {
+  out.presence = is_seen_ ? kFaceSeen : 0;
+  if (!has_seen_) return false;
+  const double past = (now - seen_ - kFaceKept).as_seconds() / kFaceFades.as_seconds();
+  const auto share = static_cast<float>(1.0 - std::clamp(past, 0.0, 1.0));
+  for (std::size_t i = 0; i < kExpressionCount; ++i) out.weight[i] = share * weight_[i];
+  return share > 0.0f;
+}
+
+void FaceSolver::reset() {
+  const double smooth = smooth_;
+  *this = FaceSolver(smooth);
+}
+
+void mirror(Face& face) {
+  for (std::size_t i = 0; i + 1 < kExpressionCount; ++i) {
+    const std::string_view name = kExpressionNames[i];
+    if (!name.ends_with("Left") || i == index_of(Expression::kJawLeft) ||
+        i == index_of(Expression::kMouthLeft))
+      continue;
+    std::swap(face.weight[i], face.weight[i + 1]);
+  }
+  std::swap(face[Expression::kJawLeft], face[Expression::kJawRight]);
+  std::swap(face[Expression::kMouthLeft], face[Expression::kMouthRight]);
+  const Quaternionf& R = face.R_PB;
+  face.R_PB = Quaternionf(R.w(), R.x(), -R.y(), -R.z());
+  face.gaze_rad[0] = -face.gaze_rad[0];
+}
+
+}  // namespace dance
