@@ -98,13 +98,11 @@ SeveralStage make_stage(const SeveralCase& what, const CodecTake& recorded, std:
   eye.later_s = 1e-3 * what.later_ms;
   eye.drift = 1e-3 * what.drift_ms_per_min / 60.0;
   eye.phase_s = std::fmod(0.011 + 0.0037 * static_cast<double>(seed % 9), 1.0 / what.hz);
-  stage.other =
-      make_eye(stage.first, take.skeleton, take.poses, take.hz, eye, errors, seed + 5000);
+  stage.other = make_eye(stage.first, take.skeleton, take.poses, take.hz, eye, errors, seed + 5000);
   if (!what.moves_second) return stage;
   eye.around_rad += 8.0 / kDegrees;
   eye.camera.pitch_rad += 0.05;
-  stage.moved =
-      make_eye(stage.first, take.skeleton, take.poses, take.hz, eye, errors, seed + 5000);
+  stage.moved = make_eye(stage.first, take.skeleton, take.poses, take.hz, eye, errors, seed + 5000);
   stage.half_s = 0.5 * static_cast<double>(poses.size()) / stage.first.hz;
   return stage;
 }
@@ -157,7 +155,8 @@ struct Found {
   int moves = 0;
 };
 
-void judge_placement(const SeveralStage& stage, const CameraPair& pair, double since_s, Found& found) {
+void judge_placement(const SeveralStage& stage, const CameraPair& pair, double since_s,
+                     Found& found) {
   const auto& placement = pair.placement();
   if (!placement) return;
   if (found.settled_s < 0.0) found.settled_s = since_s;
@@ -230,14 +229,14 @@ Found run_stage(const SeveralStage& stage, const SeveralCase& what, bool has_two
 Joints truth_of(const SeveralStage& stage, std::size_t f) {
   Joints joints;
   for (std::size_t i = 0; i < joints.size(); ++i)
-    joints[i] = stage.first.R_WC.transpose() *
-                (stage.first.frames[f].truth_W_m[index_of(kSeveralJoints[i].first)] -
-                 stage.first.p_WC_m);
+    joints[i] =
+        stage.first.R_WC.transpose() *
+        (stage.first.frames[f].truth_W_m[index_of(kSeveralJoints[i].first)] - stage.first.p_WC_m);
   return joints;
 }
 
-void judge_run(const SeveralStage& stage, const SeveralCase& what, const Found& found, double from_s,
-               double placed_s, Sums& sums) {
+void judge_run(const SeveralStage& stage, const SeveralCase& what, const Found& found,
+               double from_s, double placed_s, Sums& sums) {
   for (std::size_t f = 1; f < found.joints_C_m.size(); ++f) {
     const double since_s = static_cast<double>(f) / stage.first.hz;
     if (since_s < from_s || !found.joints_C_m[f]) continue;

@@ -23,21 +23,21 @@ namespace dance {
 struct SeveralCase {
   std::string name;
   double around_deg = 60.0;
-  double distance_m = 3.0;       // of both, from the middle of the dance
-  double later_ms = 23.0;        // the second camera's stamps
+  double distance_m = 3.0;  // of both, from the middle of the dance
+  double later_ms = 23.0;   // the second camera's stamps
   double drift_ms_per_min = 0.0;
-  double hz = 30.0;              // of the second camera
-  bool hides_arm = false;        // the left arm is out of the first camera's sight, half of the time
-  bool covers_first = false;     // for two seconds of every eight, once placed
+  double hz = 30.0;           // of the second camera
+  bool hides_arm = false;     // the left arm is out of the first camera's sight, half of the time
+  bool covers_first = false;  // for two seconds of every eight, once placed
   bool covers_second = false;
-  bool moves_second = false;     // turned by 8 degrees, half-way
-  bool is_exact = false;         // networks without errors
-  bool keeps_bodies = false;     // the takes' own, instead of bodies that differ as adults do
+  bool moves_second = false;  // turned by 8 degrees, half-way
+  bool is_exact = false;      // networks without errors
+  bool keeps_bodies = false;  // the takes' own, instead of bodies that differ as adults do
 };
 std::vector<SeveralCase> several_cases();
 
 struct DepthErrors {
-  double hips_mm = 0.0;      // of the middle of the hips, along the first camera's view
+  double hips_mm = 0.0;  // of the middle of the hips, along the first camera's view
   double hips_p95_mm = 0.0;
   double joints_mm = 0.0;    // of twelve joints
   double relative_mm = 0.0;  // in space, the middle of the hips removed
@@ -55,13 +55,13 @@ struct SeveralScore {
   std::array<DepthErrors, kSeenByCount> errors;
   int takes = 0;
   int placed = 0;
-  double settled_s = -1.0;        // mean
-  double turn_error_deg = 0.0;    // of the placed camera
+  double settled_s = -1.0;      // mean
+  double turn_error_deg = 0.0;  // of the placed camera
   double place_error_mm = 0.0;
   double later_error_ms = 0.0;
   int moves = 0;
-  double again_s = -1.0;          // from when the camera was moved to when it was placed again
-  double us_per_picture = 0.0;    // beyond one camera's: placement and joint solve
+  double again_s = -1.0;        // from when the camera was moved to when it was placed again
+  double us_per_picture = 0.0;  // beyond one camera's: placement and joint solve
   std::size_t frames = 0;
 };
 

@@ -14,11 +14,10 @@ double ratio_of(double one, double two) { return two > 0.0 ? one / two : 0.0; }
 
 std::string several_table(const std::vector<SeveralScore>& scores) {
   constexpr const char* kRow = "{:<28} {:>8} {:>8} {:>8} {:>9} {:>9} {:>8} {:>8} {:>8}\n";
-  std::string text =
-      fmt::format(fmt::runtime(kRow), "", "depth of", "", "depth of", "relative", "absolute",
-                  "hips'", "gain on", "on one") +
-      fmt::format(fmt::runtime(kRow), "", "hips mm", "p95", "joints", "mm", "mm", "step p99", "one",
-                  "told");
+  std::string text = fmt::format(fmt::runtime(kRow), "", "depth of", "", "depth of", "relative",
+                                 "absolute", "hips'", "gain on", "on one") +
+                     fmt::format(fmt::runtime(kRow), "", "hips mm", "p95", "joints", "mm", "mm",
+                                 "step p99", "one", "told");
   for (const SeveralScore& s : scores) {
     text += fmt::format("{}, {:g} m ({} frames, {} of {} takes placed)\n", s.what.name,
                         s.what.distance_m, s.frames, s.placed, s.takes);
@@ -34,7 +33,8 @@ std::string several_table(const std::vector<SeveralScore>& scores) {
       text += "\n";
     }
     text += fmt::format(
-        "  placed after {:.1f} s; off by {:.2f} deg, {:.0f} mm, {:.1f} ms; moved {} times{}; {:.0f} us "
+        "  placed after {:.1f} s; off by {:.2f} deg, {:.0f} mm, {:.1f} ms; moved {} times{}; "
+        "{:.0f} us "
         "more a picture\n",
         s.settled_s, s.turn_error_deg, s.place_error_mm, s.later_error_ms, s.moves,
         s.again_s >= 0.0 ? fmt::format(", placed again after {:.1f} s", s.again_s) : "",
@@ -49,13 +49,12 @@ std::string several_json(const std::vector<SeveralScore>& scores) {
     nlohmann::ordered_json ways;
     for (std::size_t w = 0; w < kSeenByCount; ++w) {
       const DepthErrors& e = s.errors[w];
-      ways[name_of(static_cast<SeenBy>(w))] = {
-          {"hips_depth_mm", rounded(e.hips_mm, 100.0)},
-          {"hips_depth_p95_mm", rounded(e.hips_p95_mm, 100.0)},
-          {"joints_depth_mm", rounded(e.joints_mm, 100.0)},
-          {"relative_mm", rounded(e.relative_mm, 100.0)},
-          {"absolute_mm", rounded(e.absolute_mm, 100.0)},
-          {"hips_step_p99_mm", rounded(e.step_p99_mm, 100.0)}};
+      ways[name_of(static_cast<SeenBy>(w))] = {{"hips_depth_mm", rounded(e.hips_mm, 100.0)},
+                                               {"hips_depth_p95_mm", rounded(e.hips_p95_mm, 100.0)},
+                                               {"joints_depth_mm", rounded(e.joints_mm, 100.0)},
+                                               {"relative_mm", rounded(e.relative_mm, 100.0)},
+                                               {"absolute_mm", rounded(e.absolute_mm, 100.0)},
+                                               {"hips_step_p99_mm", rounded(e.step_p99_mm, 100.0)}};
     }
     all.push_back({{"case", s.what.name},
                    {"distance_m", s.what.distance_m},

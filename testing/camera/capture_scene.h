@@ -44,7 +44,7 @@ struct CaptureScene {
   SceneCamera camera;
   Eigen::Matrix3d R_WC;
   Eigen::Vector3d p_WC_m;
-  double height_m = 0.0;  // of the dancer
+  double height_m = 0.0;                                 // of the dancer
   Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();    // W's, in the stage of the poses
   Eigen::Vector3d middle_W_m = Eigen::Vector3d::Zero();  // of the dance
   std::vector<SceneFrame> frames;
@@ -81,9 +81,7 @@ struct EyeScene {
   Eigen::Vector3d p_WC_m;
   std::vector<Moment> moments;
 
-  double later_s(double since_start_s) const {
-    return eye.later_s + eye.drift * since_start_s;
-  }
+  double later_s(double since_start_s) const { return eye.later_s + eye.drift * since_start_s; }
 };
 
 // `poses` of the dance of `first`, `poses_hz` a second from the same beginning.

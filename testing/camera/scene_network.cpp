@@ -128,12 +128,13 @@ void SceneNetwork::flip(BodyLandmarks& out) const {
 }
 
 void SceneNetwork::write_world(const std::array<Vector3d, kLandmarkCount>& p_C_m,
-                          BodyLandmarks& out) const {
+                               BodyLandmarks& out) const {
   const auto middle = [&p_C_m](Landmark left) {
     return Vector3d(0.5 * (p_C_m[index_of(left)] + p_C_m[index_of(left) + 1]));
   };
   const Vector3d hips = middle(Landmark::kLeftHip), shoulders = middle(Landmark::kLeftShoulder);
-  const auto wrong = [&](const Vector3d& bone, const LastingError& turn, const LastingError& stretch) {
+  const auto wrong = [&](const Vector3d& bone, const LastingError& turn,
+                         const LastingError& stretch) {
     const Vector3d sd(errors_.aside_sd, errors_.aside_sd, errors_.depth_sd);
     const Vector3d told = bone + bone.norm() * sd.cwiseProduct(turn.value);
     // The direction is wrong by the one, the length by the other.
@@ -175,8 +176,8 @@ void SceneNetwork::write_world(const std::array<Vector3d, kLandmarkCount>& p_C_m
     out.world_m[i] = (errors_.scale * told[i]).cast<float>();
 }
 
-BodyLandmarks SceneNetwork::see(const std::array<Vector3d, kLandmarkCount>& p_C_m, const Pinhole& camera,
-                           MonoTime t) {
+BodyLandmarks SceneNetwork::see(const std::array<Vector3d, kLandmarkCount>& p_C_m,
+                                const Pinhole& camera, MonoTime t) {
   const double keep_image = std::exp(-1.0 / (hz_ * errors_.image_memory_s)),
                keep_world = std::exp(-1.0 / (hz_ * errors_.world_memory_s));
   for (LastingError& l : image_) l.go_on(random_, keep_image);

@@ -51,7 +51,8 @@ struct LastingError {
   void start(Random& random) { value = {random.normal(), random.normal(), random.normal()}; }
   void go_on(Random& random, double keep) {
     const double fresh = std::sqrt(1.0 - keep * keep);
-    value = keep * value + fresh * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+    value =
+        keep * value + fresh * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
   }
 };
 
@@ -75,7 +76,8 @@ class SceneNetwork {
   void hide();
   void draw_flip(const std::array<Eigen::Vector3d, kLandmarkCount>& p_C_m);
   void flip(BodyLandmarks& out) const;
-  void write_world(const std::array<Eigen::Vector3d, kLandmarkCount>& p_C_m, BodyLandmarks& out) const;
+  void write_world(const std::array<Eigen::Vector3d, kLandmarkCount>& p_C_m,
+                   BodyLandmarks& out) const;
 
   SceneErrors errors_;
   double hz_;

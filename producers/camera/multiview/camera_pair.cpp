@@ -134,8 +134,8 @@ void CameraPair::finish_lengths(const DancerSize& size) {
     recent_spread_ = usual_spread_ = std::max(1.0, fit_.spread());
     has_told_lengths_ = false;
   }
-  placement_ = {fit_.pose(),         baseline_m,       lengths_.angle_rad(), fit_.turn_sd_rad(),
-                fit_.later_sd_s(), fit_.spread()};
+  placement_ = {fit_.pose(),        baseline_m,        lengths_.angle_rad(),
+                fit_.turn_sd_rad(), fit_.later_sd_s(), fit_.spread()};
   if (has_told_lengths_ || lengths_.moments() < kLengthMoments) return;
   has_told_lengths_ = true;
   new_lengths_ = *lengths;

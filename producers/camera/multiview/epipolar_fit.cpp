@@ -37,8 +37,7 @@ struct Residual {
 // its standard deviation.
 bool residual_of(const RelativePose& pose, const Eigen::Matrix<double, 3, 2>& ways,
                  const ViewPoints& first, const ViewMoment& other, std::size_t i, Residual& out) {
-  const auto weight =
-      std::min(static_cast<double>(first.weight[i]), other.weight[i]);
+  const auto weight = std::min(static_cast<double>(first.weight[i]), other.weight[i]);
   if (weight < 0.2) return false;
   const Vector3d y = pose.R_BA * first.ray[i].cast<double>().homogeneous();
   const Vector3d b = other.ray[i].homogeneous();

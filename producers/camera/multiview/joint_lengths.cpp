@@ -68,9 +68,9 @@ void JointLengths::measure(const ViewPoints& first, const ViewMoment& other) {
     const double weight = std::min(static_cast<double>(first.weight[i]), other.weight[i]);
     if (weight < kSeenWell) continue;
     ++looked_;
-    joints[i].is_met = meet(pose_, first.ray[i].cast<double>(), other.ray[i],
-                            static_cast<double>(first.ray_sd),
-                            static_cast<double>(other.nearest->ray_sd), joints[i].point);
+    joints[i].is_met =
+        meet(pose_, first.ray[i].cast<double>(), other.ray[i], static_cast<double>(first.ray_sd),
+             static_cast<double>(other.nearest->ray_sd), joints[i].point);
     if (!joints[i].is_met) continue;
     ++met;
     middle += joints[i].point.p_A;
@@ -80,17 +80,18 @@ void JointLengths::measure(const ViewPoints& first, const ViewMoment& other) {
   ++moments_;
   middle /= met;
   const Vector3d eye_B = -(pose_.R_BA.transpose() * pose_.p_BA);
-  angle_sum_ += std::acos(
-      std::clamp(middle.normalized().dot((middle - eye_B).normalized()), -1.0, 1.0));
+  angle_sum_ +=
+      std::acos(std::clamp(middle.normalized().dot((middle - eye_B).normalized()), -1.0, 1.0));
   const auto add = [&joints](const LengthSpan& span, Samples& samples) {
-    const JointAt &fa = joints[view_point_of(span.from_a)], &fb = joints[view_point_of(span.from_b)],
-                  &ta = joints[view_point_of(span.to_a)], &tb = joints[view_point_of(span.to_b)];
+    const JointAt &fa = joints[view_point_of(span.from_a)],
+                  &fb = joints[view_point_of(span.from_b)], &ta = joints[view_point_of(span.to_a)],
+                  &tb = joints[view_point_of(span.to_b)];
     if (!fa.is_met || !fb.is_met || !ta.is_met || !tb.is_met || samples.count == kMost) return;
     const Vector3d way = 0.5 * (ta.point.p_A + tb.point.p_A - fa.point.p_A - fb.point.p_A);
     // E|a + n|² = |a|² + E|n|²; the mean of two points has half the variance of one.
     const double share = span.from_a == span.from_b ? 0.5 : 0.25;
-    const double noise = share * (fa.point.variance + fb.point.variance + ta.point.variance +
-                                  tb.point.variance);
+    const double noise =
+        share * (fa.point.variance + fb.point.variance + ta.point.variance + tb.point.variance);
     const double squared = way.squaredNorm() - noise;
     samples.values[samples.count++] = static_cast<float>(std::sqrt(std::max(0.0, squared)));
   };
@@ -133,8 +134,8 @@ std::optional<BodyLengths> JointLengths::lengths() const {
   const double usual = std::exp(ratio / ratios);
   for (std::size_t l = 0; l < kLengthCount; ++l) {
     if (!(lengths[l] > 0.0)) lengths[l] = usual * average[l];
-    lengths[l] = std::clamp(lengths[l], usual * average[l] / kMostRatio,
-                            usual * average[l] * kMostRatio);
+    lengths[l] =
+        std::clamp(lengths[l], usual * average[l] / kMostRatio, usual * average[l] * kMostRatio);
   }
   return lengths;
 }

@@ -20,10 +20,9 @@ RelativePose RelativePose::moved(const Step& step) const {
   RelativePose moved = *this;
   const Vector3d turn = step.head<3>();
   if (turn.norm() > 1e-12)
-    moved.R_BA =
-        Eigen::Quaterniond(Eigen::AngleAxisd(turn.norm(), turn.normalized()) * R_BA)
-            .normalized()
-            .toRotationMatrix();
+    moved.R_BA = Eigen::Quaterniond(Eigen::AngleAxisd(turn.norm(), turn.normalized()) * R_BA)
+                     .normalized()
+                     .toRotationMatrix();
   moved.p_BA = (p_BA + ways_of_baseline() * step.segment<2>(3)).normalized();
   moved.later_s += step[5];
   return moved;

@@ -25,8 +25,8 @@ constexpr Direction between_points(Landmark from, Landmark to, double weight) {
   return {view_point_of(from), view_point_of(from), view_point_of(to), view_point_of(to), weight};
 }
 constexpr std::array kDirections{
-    Direction{view_point_of(Landmark::kLeftHip), view_point_of(Landmark::kRightHip), view_point_of(Landmark::kLeftShoulder),
-              view_point_of(Landmark::kRightShoulder), 2.0},
+    Direction{view_point_of(Landmark::kLeftHip), view_point_of(Landmark::kRightHip),
+              view_point_of(Landmark::kLeftShoulder), view_point_of(Landmark::kRightShoulder), 2.0},
     between_points(Landmark::kRightHip, Landmark::kLeftHip, 0.5),
     between_points(Landmark::kRightShoulder, Landmark::kLeftShoulder, 0.5),
     between_points(Landmark::kLeftShoulder, Landmark::kLeftElbow, 1.0),
@@ -48,16 +48,17 @@ struct Products {
 Products products_of(const ViewPoints& a, const ViewPoints& b, const Matrix3d& R_BA) {
   Products products;
   for (const Direction& d : kDirections) {
-    const auto weight = d.weight * static_cast<double>(std::min(
-                                       {a.weight[d.from_a], a.weight[d.from_b], a.weight[d.to_a],
-                                        a.weight[d.to_b], b.weight[d.from_a], b.weight[d.from_b],
-                                        b.weight[d.to_a], b.weight[d.to_b]}));
+    const auto weight =
+        d.weight *
+        static_cast<double>(
+            std::min({a.weight[d.from_a], a.weight[d.from_b], a.weight[d.to_a], a.weight[d.to_b],
+                      b.weight[d.from_a], b.weight[d.from_b], b.weight[d.to_a], b.weight[d.to_b]}));
     if (weight <= 0.0) continue;
     const auto of = [&d](const ViewPoints& p) {
-      return Vector3d((p.world_m[d.to_a] + p.world_m[d.to_b] - p.world_m[d.from_a] -
-                       p.world_m[d.from_b])
-                          .cast<double>()
-                          .normalized());
+      return Vector3d(
+          (p.world_m[d.to_a] + p.world_m[d.to_b] - p.world_m[d.from_a] - p.world_m[d.from_b])
+              .cast<double>()
+              .normalized());
     };
     const Vector3d in_A = of(a), in_B = of(b);
     products.sum += weight * in_B * in_A.transpose();

@@ -36,9 +36,7 @@ class ViewHistory {
 
  private:
   // 0 is the oldest.
-  const ViewPoints& entry(std::size_t i) const {
-    return (*ring_)[(begin_ + i) % kCapacity];
-  }
+  const ViewPoints& entry(std::size_t i) const { return (*ring_)[(begin_ + i) % kCapacity]; }
 
   std::unique_ptr<std::array<ViewPoints, kCapacity>> ring_;
   std::size_t begin_ = 0;

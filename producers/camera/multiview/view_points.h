@@ -1,5 +1,5 @@
-// ViewPoints: what one camera saw of a body at one moment, as the placement of several cameras needs
-// it: the rays of the joints, and the network's metres.
+// ViewPoints: what one camera saw of a body at one moment, as the placement of several cameras
+// needs it: the rays of the joints, and the network's metres.
 //
 // Units/frames: rays x/z, y/z and metres in the camera's frame (producers/camera/pinhole.h); `time`
 //               is the camera's own stamp.
@@ -18,12 +18,12 @@ namespace dance {
 
 // Points that networks place alike from all sides; the face and the fingers they do not.
 constexpr std::array kViewLandmarks{
-    Landmark::kNose,          Landmark::kLeftEar,        Landmark::kRightEar,
-    Landmark::kLeftShoulder,  Landmark::kRightShoulder,  Landmark::kLeftElbow,
-    Landmark::kRightElbow,    Landmark::kLeftWrist,      Landmark::kRightWrist,
-    Landmark::kLeftHip,       Landmark::kRightHip,       Landmark::kLeftKnee,
-    Landmark::kRightKnee,     Landmark::kLeftAnkle,      Landmark::kRightAnkle,
-    Landmark::kLeftHeel,      Landmark::kRightHeel,      Landmark::kLeftFootIndex,
+    Landmark::kNose,          Landmark::kLeftEar,       Landmark::kRightEar,
+    Landmark::kLeftShoulder,  Landmark::kRightShoulder, Landmark::kLeftElbow,
+    Landmark::kRightElbow,    Landmark::kLeftWrist,     Landmark::kRightWrist,
+    Landmark::kLeftHip,       Landmark::kRightHip,      Landmark::kLeftKnee,
+    Landmark::kRightKnee,     Landmark::kLeftAnkle,     Landmark::kRightAnkle,
+    Landmark::kLeftHeel,      Landmark::kRightHeel,     Landmark::kLeftFootIndex,
     Landmark::kRightFootIndex};
 constexpr std::size_t kViewPointCount = kViewLandmarks.size();
 // kViewPointCount where it is none of them.

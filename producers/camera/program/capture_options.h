@@ -15,9 +15,9 @@
 namespace dance {
 
 struct CaptureOptions {
-  std::string source;  // camera, video, folder; "" = the first camera
-  std::string right;   // the right camera, where it is a device of its own
-  std::vector<std::string> also;  // further cameras, anywhere around the dancer
+  std::string source;                         // camera, video, folder; "" = the first camera
+  std::string right;                          // the right camera, where it is a device of its own
+  std::vector<std::string> also;              // further cameras, anywhere around the dancer
   std::vector<std::string> also_calibration;  // of their lenses, in the same order
   std::vector<double> also_fov_deg;           // where these are not given
   std::string guest = "alice";

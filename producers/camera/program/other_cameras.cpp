@@ -93,8 +93,7 @@ OtherCameras::~OtherCameras() {
 }
 
 void OtherCameras::start() {
-  for (const auto& camera : cameras_)
-    camera->thread = std::thread([c = camera.get()] { run(*c); });
+  for (const auto& camera : cameras_) camera->thread = std::thread([c = camera.get()] { run(*c); });
 }
 
 void OtherCameras::run(Camera& camera) {
@@ -133,7 +132,9 @@ std::string OtherCameras::news() {
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     Camera& camera = *cameras_[i];
     const CameraPair& pair = views_.pair(i);
-    const auto once = [](bool& told, bool is_so) { return is_so ? !std::exchange(told, true) : false; };
+    const auto once = [](bool& told, bool is_so) {
+      return is_so ? !std::exchange(told, true) : false;
+    };
     if (!camera.is_gone) camera.has_told_gone = false;
     if (once(camera.has_told_gone, camera.is_gone))
       return camera.name + " is gone; plug it in again, it is looked for";
@@ -157,8 +158,7 @@ std::vector<OtherCameraReport> OtherCameras::reports() const {
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     const Camera& camera = *cameras_[i];
     const CameraPair& pair = views_.pair(i);
-    reports.push_back(
-        {camera.name, camera.pictures, camera.seen, pair.placement(), pair.moves()});
+    reports.push_back({camera.name, camera.pictures, camera.seen, pair.placement(), pair.moves()});
   }
   return reports;
 }
@@ -166,8 +166,7 @@ std::vector<OtherCameraReport> OtherCameras::reports() const {
 std::string text_of(const PairPlacement& placement) {
   const RelativePose& pose = placement.pose;
   // Where it stands in the first camera's frame, and where it looks.
-  const Eigen::Vector3d p_AB_m =
-      -(pose.R_BA.transpose() * pose.p_BA) * placement.baseline_m;
+  const Eigen::Vector3d p_AB_m = -(pose.R_BA.transpose() * pose.p_BA) * placement.baseline_m;
   const double turned_rad = std::acos(std::clamp(pose.R_BA(2, 2), -1.0, 1.0));
   std::string text;
   const auto add = [&text](double way_m, const char* less, const char* more) {
@@ -178,8 +177,8 @@ std::string text_of(const PairPlacement& placement) {
   add(p_AB_m.y(), "higher", "lower");
   add(p_AB_m.z(), "further back", "further to the front");
   return text + fmt::format("turned {:.0f} degrees, its pictures {:.0f} ms {}",
-                            turned_rad * 180.0 / std::numbers::pi,
-                            std::abs(1e3 * pose.later_s), pose.later_s < 0.0 ? "early" : "late");
+                            turned_rad * 180.0 / std::numbers::pi, std::abs(1e3 * pose.later_s),
+                            pose.later_s < 0.0 ? "early" : "late");
 }
 
 }  // namespace dance

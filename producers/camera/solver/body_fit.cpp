@@ -128,12 +128,9 @@ void BodyFit::add_eyes(const FitProblem& problem, bool trusting) {
     const OtherView& other = problem.others[i].view;
     const double variance =
         other.seen.ray_sd * other.seen.ray_sd + other.placement_sd * other.placement_sd;
-    eyes[count++] = {&other.seen,
-                     other.R_VC * R_CW,
-                     camera.to_W(-(other.R_VC.transpose() * other.p_VC_m)),
-                     variance,
-                     other.trust,
-                     &problem.others[i].moved_W_m};
+    eyes[count++] = {
+        &other.seen, other.R_VC * R_CW, camera.to_W(-(other.R_VC.transpose() * other.p_VC_m)),
+        variance,    other.trust,       &problem.others[i].moved_W_m};
   }
   for (std::size_t i = 0; i < count; ++i) add_rays(eyes[i], trusting);
   for (std::size_t i = 0; i < count; ++i) add_vectors(eyes[i]);

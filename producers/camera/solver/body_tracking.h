@@ -66,7 +66,7 @@ class BodyTracking {
   bool has_placement_ = false;
   std::size_t eyes_ = 0;          // cameras that saw the body in the last picture
   bool has_seen_others_ = false;  // depth was measured by several cameras
-  BodyModel model_;  // for use outside a fit
+  BodyModel model_;               // for use outside a fit
   BodyFit fit_;
   FitProblem problem_;
   MotionFilter motion_;

@@ -24,7 +24,7 @@ constexpr std::array kLengthSpans{
     span_of(Length::kShoulders, Landmark::kLeftShoulder, Landmark::kRightShoulder),
     span_of(Length::kHips, Landmark::kLeftHip, Landmark::kRightHip),
     LengthSpan{Length::kTorso, Landmark::kLeftHip, Landmark::kRightHip, Landmark::kLeftShoulder,
-         Landmark::kRightShoulder},
+               Landmark::kRightShoulder},
     span_of(Length::kUpperArm, Landmark::kLeftShoulder, Landmark::kLeftElbow),
     span_of(Length::kUpperArm, Landmark::kRightShoulder, Landmark::kRightElbow),
     span_of(Length::kLowerArm, Landmark::kLeftElbow, Landmark::kLeftWrist),

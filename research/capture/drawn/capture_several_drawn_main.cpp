@@ -20,8 +20,9 @@ constexpr const char* kSeveralDrawnExamples = R"(Examples:
 Result<void> run(const DrawnWishes& wishes, bool is_json) {
   DANCE_TRY(const DrawnStage drawn, draw_stage(wishes));
   SeveralCase what;
-  what.name = fmt::format("drawn, {:g} degrees apart, seen in {:.0f} % of the pictures, {:.2f} m tall",
-                          wishes.around_deg, drawn.seen_percent, drawn.stage.first.height_m);
+  what.name =
+      fmt::format("drawn, {:g} degrees apart, seen in {:.0f} % of the pictures, {:.2f} m tall",
+                  wishes.around_deg, drawn.seen_percent, drawn.stage.first.height_m);
   what.around_deg = wishes.around_deg;
   what.distance_m = wishes.distance_m;
   what.later_ms = wishes.later_ms;
@@ -41,7 +42,8 @@ int main(int argc, char** argv) {
       "A recorded dance drawn as two webcams see it, before the real pose network: what two know, "
       "and what one knows.",
       "dance capture several drawn");
-  line.add("FILE", wishes.take, "a recorded dance, BVH, also packed with xz; else the salsa dancer");
+  line.add("FILE", wishes.take,
+           "a recorded dance, BVH, also packed with xz; else the salsa dancer");
   line.add("--seconds", wishes.seconds, "of it").range(5.0, 600.0).shows_default();
   line.add("--distance", wishes.distance_m, "metres from both cameras to the middle of the dance")
       .range(1.5, 8.0)
@@ -53,7 +55,8 @@ int main(int argc, char** argv) {
       .range(-150.0, 150.0)
       .shows_default();
   line.add("--guest", wishes.guest, "whose looks the dancer has").guest_name().shows_default();
-  line.add("--keep", wishes.folder, "keeps the pictures in this folder; those that are there are not drawn again");
+  line.add("--keep", wishes.folder,
+           "keeps the pictures in this folder; those that are there are not drawn again");
   line.add_choice<dance::PoseModel>("--model", wishes.model,
                                     {{"lite", dance::PoseModel::kLite},
                                      {"full", dance::PoseModel::kFull},

@@ -22,8 +22,8 @@ class SteadyHands {
  public:
   static constexpr float kOneEyeAlongSd_m = 0.05f;
   struct Measurement {
-    Eigen::Vector3f eye_W_m;            // the camera
-    float across_sd_m = 0.01f;          // of a well seen point
+    Eigen::Vector3f eye_W_m;    // the camera
+    float across_sd_m = 0.01f;  // of a well seen point
     // Along the view, of each hand: of one camera alone.
     std::array<float, 2> along_sd_m{kOneEyeAlongSd_m, kOneEyeAlongSd_m};
     std::array<float, 2> visibility{};  // 0…1, of each hand

@@ -55,21 +55,19 @@ JointRun run(const SeenTwice& seen, bool has_two, Change change) {
     change(f, body);
     body.capture_time = now;
     const EyeScene::Moment& moment = seen.other.moments[next];
-    const OtherView view =
-        true_view(seen, moment.landmarks, (now - moment.time).as_seconds());
-    const bool is_there = solver.solve(
-        body, {}, pose, has_two && f > 0 ? OtherViews(&view, 1) : OtherViews());
+    const OtherView view = true_view(seen, moment.landmarks, (now - moment.time).as_seconds());
+    const bool is_there =
+        solver.solve(body, {}, pose, has_two && f > 0 ? OtherViews(&view, 1) : OtherViews());
     result.poses += is_there ? 1 : 0;
     if (!is_there || f < 90) continue;
-    const Eigen::Vector3d off = joint_C_m(solver, pose, Bone::kLeftUpperLeg) -
-                                truth_C_m(seen, f, Landmark::kLeftHip);
-    if (last_off)
-      result.most_step_m = std::max(result.most_step_m, (off - *last_off).norm());
+    const Eigen::Vector3d off =
+        joint_C_m(solver, pose, Bone::kLeftUpperLeg) - truth_C_m(seen, f, Landmark::kLeftHip);
+    if (last_off) result.most_step_m = std::max(result.most_step_m, (off - *last_off).norm());
     last_off = off;
     result.hips_depth_m += std::abs(off.z());
-    result.wrist_m += (joint_C_m(solver, pose, Bone::kLeftHand) -
-                       truth_C_m(seen, f, Landmark::kLeftWrist))
-                          .norm();
+    result.wrist_m +=
+        (joint_C_m(solver, pose, Bone::kLeftHand) - truth_C_m(seen, f, Landmark::kLeftWrist))
+            .norm();
     ++judged;
   }
   result.hips_depth_m /= judged;
@@ -130,9 +128,9 @@ TEST(JointSolve, AllocatesNothing) {
   const AllocationGuard guard;
   for (std::size_t f = 1; f < seen.first.frames.size(); ++f) {
     const EyeScene::Moment& moment = seen.other.moments[f - 1];
-    const OtherView view = true_view(
-        seen, moment.landmarks,
-        (seen.first.frames[f].landmarks.capture_time - moment.time).as_seconds());
+    const OtherView view =
+        true_view(seen, moment.landmarks,
+                  (seen.first.frames[f].landmarks.capture_time - moment.time).as_seconds());
     EXPECT_TRUE(solver.solve(seen.first.frames[f].landmarks, {}, pose, OtherViews(&view, 1)));
   }
   EXPECT_EQ(guard.allocations(), 0u);

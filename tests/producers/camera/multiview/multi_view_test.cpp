@@ -176,8 +176,8 @@ TEST(ViewHistory, InterpolatesAndRefusesGaps) {
 
 TEST(RelativePose, RaysOfAPointMeetThere) {
   RelativePose pose;
-  pose.R_BA = Eigen::AngleAxisd(0.7, Eigen::Vector3d(0.1, 1.0, 0.0).normalized())
-                  .toRotationMatrix();
+  pose.R_BA =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(0.1, 1.0, 0.0).normalized()).toRotationMatrix();
   pose.p_BA = Eigen::Vector3d(0.8, 0.1, 0.5).normalized();
   const Eigen::Vector3d p_A(0.3, -0.2, 1.4);
   const Eigen::Vector3d p_B = pose.R_BA * p_A + pose.p_BA;

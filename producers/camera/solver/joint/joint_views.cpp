@@ -1,4 +1,4 @@
-#include "producers/camera/solver/joint_views.h"
+#include "producers/camera/solver/joint/joint_views.h"
 
 #include <algorithm>
 #include <cmath>
@@ -132,8 +132,7 @@ SteadyHands::Measurement hand_measurement(const FitProblem& problem, const Vecto
     for (std::size_t i = 0; i < problem.other_count; ++i) {
       const OtherView& other = problem.others[i].view;
       if (other.trust * other.seen.weight[wrist] < kHandSeen) continue;
-      const Vector3d other_W_m =
-          problem.camera->to_W(-(other.R_VC.transpose() * other.p_VC_m));
+      const Vector3d other_W_m = problem.camera->to_W(-(other.R_VC.transpose() * other.p_VC_m));
       const Vector3d to = (hips_W_m - eye_W_m).normalized(),
                      other_to = (hips_W_m - other_W_m).normalized();
       const double sine = to.cross(other_to).norm();
