@@ -48,8 +48,8 @@ using Joints = std::array<Vector3d, kSeveralJoints.size()>;
 
 Vector3d hips_of(const Joints& joints) { return 0.5 * (joints[kHipsAt] + joints[kHipsAt + 1]); }
 
-// A body that has what bodies differ by: its height, and each length beside it. Whoever is told its
-// height is told how tall it stands.
+// A body that differs from others as adults do: its height, and each length beside it. A solver
+// that is told the height is told how tall it stands.
 Skeleton dancer_of(std::uint64_t seed) {
   Random random(seed * 7919 + 13);
   const double height_m = random.uniform(1.55, 1.88);

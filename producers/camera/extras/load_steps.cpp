@@ -26,7 +26,9 @@ std::string_view text_of(LoadStep step) {
     case LoadStep::kOneInTurn:
       return "hands and face are looked for by turns, in every second picture";
     case LoadStep::kBodyOnly:
-      return "only the body is seen";
+      return "only bodies are seen";
+    case LoadStep::kDancersByTurns:
+      return "dancers are seen by turns, one in each picture";
   }
   return "";
 }
@@ -39,7 +41,7 @@ void LoadSteps::take(LoadStep step, MonoTime now) {
 
 bool LoadSteps::add(Duration busy, Duration period, MonoTime now) {
   if (!since_.is_set()) {
-    take(LoadStep::kAll, now);
+    take(first_, now);
     patience_ = kFirstPatience;
   }
   if (period <= Duration{} || busy < Duration{}) return false;
@@ -48,7 +50,7 @@ bool LoadSteps::add(Duration busy, Duration period, MonoTime now) {
   if (load_ > kLight) light_since_ = now;
   if (now - since_ < kJudged) return false;
   const int step = static_cast<int>(step_);
-  if (load_ > kTooMuch && step + 1 < kLoadStepCount) {
+  if (load_ > kTooMuch && step_ < last_) {
     // More was tried too early.
     if (is_tried_ && now - since_ < kFirstPatience)
       patience_ = std::min(kMostPatience, patience_ * 2);
@@ -56,7 +58,7 @@ bool LoadSteps::add(Duration busy, Duration period, MonoTime now) {
     is_tried_ = false;
     return true;
   }
-  if (step > 0 && now - light_since_ > patience_) {
+  if (step_ > first_ && now - light_since_ > patience_) {
     take(static_cast<LoadStep>(step - 1), now);
     is_tried_ = true;
     return true;

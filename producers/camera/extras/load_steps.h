@@ -1,6 +1,6 @@
-// LoadSteps: how much is looked for beside the body, so that each picture is done before the next
-// one comes. The body is seen in every picture; hands and face are seen more seldom where the
-// machine cannot do more.
+// LoadSteps: how much is looked for in a picture, so that each is done before the next one comes.
+// Hands and face are seen more seldom where the machine cannot do more, and at last several dancers
+// by turns.
 //
 // Units/frames: times of one clock.
 // Ownership:    plain value, no heap.
@@ -20,13 +20,16 @@ enum class LoadStep : std::uint8_t {
   kAlternating,  // one hand in every picture, left and right by turns, and the face in every second
   kOneInTurn,    // a hand or the face in every second picture
   kBodyOnly,
+  kDancersByTurns,  // of several dancers one in each picture
 };
-constexpr int kLoadStepCount = 4;
 // As people read it.
 std::string_view text_of(LoadStep step);
 
 class LoadSteps {
  public:
+  // From the first to the last of them, as there is something to leave out.
+  explicit LoadSteps(LoadStep first = LoadStep::kAll, LoadStep last = LoadStep::kBodyOnly)
+      : first_(first), last_(last), step_(first) {}
   // A picture took `busy` of the `period` since the one before. True where the step is another now.
   bool add(Duration busy, Duration period, MonoTime now);
   LoadStep step() const { return step_; }
@@ -34,7 +37,8 @@ class LoadSteps {
  private:
   void take(LoadStep step, MonoTime now);
 
-  LoadStep step_ = LoadStep::kAll;
+  LoadStep first_, last_;
+  LoadStep step_;
   double load_ = 0.0;  // of one core, mean of about a second
   MonoTime since_;     // of this step
   MonoTime light_since_;

@@ -1,13 +1,13 @@
-// CameraPair: where a second camera stands beside the first and how much later its stamps are, found
-// from the dancer's motion alone and followed: no board, no wire. The dancer's height gives the
-// scale.
+// CameraPair: where a second camera stands beside the first and how much later its stamps are,
+// found from the dancer's motion alone and followed: no board, no wire. The dancer's height gives
+// the scale.
 //
 // Units/frames: relative_pose.h; metres; each camera's own stamps.
 // Ownership:    keeps half a minute of both cameras (about 700 KB); never allocates after
 //               construction.
 // Threads:      none inside; one owner.
-// Failure:      kSearching until both cameras have seen the dancer move for some seconds; a placement
-//               whose rays no longer meet is given up and searched again, and counted. Work in one
+// Failure:      no placement until both cameras have seen the dancer move for some seconds; one
+//               whose rays no longer meet is given up, counted, and searched again. Work in one
 //               call is bounded (about 0.5 ms).
 #pragma once
 

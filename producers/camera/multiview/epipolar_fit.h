@@ -27,8 +27,8 @@ class EpipolarFit {
 
   const RelativePose& pose() const { return pose_; }
   int moments() const { return moments_; }
-  // Of all residuals before the last step: their robust standard deviation, and a mean that outliers
-  // hardly change, for comparing poses.
+  // Of all residuals before the last step: their robust standard deviation, and a mean that
+  // outliers hardly change, for comparing poses.
   double spread() const { return spread_; }
   double cost() const { return cost_; }
   // Standard deviations of what was found; errors of a network last, and are not independent.

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/assert.h"
-#include "producers/camera/solver/joint_views.h"
+#include "producers/camera/solver/joint/joint_views.h"
 
 namespace dance {
 namespace {

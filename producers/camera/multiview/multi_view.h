@@ -1,6 +1,6 @@
 // MultiView: several ordinary cameras around one dancer, as the solver wants them: for each picture
-// of the first camera the newest that the others saw, with where they stand. No picture of the first
-// waits for another camera's.
+// of the first camera the newest that the others saw, with where they stand. No picture of the
+// first waits for another camera's.
 //
 // Units/frames: each camera's pixels and stamps; C the first camera's frame.
 // Ownership:    a CameraPair for each further camera; never allocates after construction.
@@ -17,7 +17,7 @@
 #include "producers/camera/body_landmarks.h"
 #include "producers/camera/multiview/camera_pair.h"
 #include "producers/camera/pinhole.h"
-#include "producers/camera/solver/other_view.h"
+#include "producers/camera/solver/joint/other_view.h"
 
 namespace dance {
 

@@ -1,5 +1,5 @@
-// ViewPoints: what one camera saw of a body at one moment, as the placement of several cameras needs
-// it: the rays of the joints, and the network's metres.
+// ViewPoints: what one camera saw of a body at one moment, as the placement of several cameras
+// needs it: the rays of the joints, and the network's metres.
 //
 // Units/frames: rays x/z, y/z and metres in the camera's frame (producers/camera/pinhole.h); `time`
 //               is the camera's own stamp.

@@ -124,7 +124,10 @@ Result<void> CaptureProgram::open_extras() {
     DANCE_TRY(extras_.face, FaceNetworks::open(options_.engine, folder));
     talk::info("the face is seen: 52 numbers of its expression and the head's turn go to the room");
   }
-  if (!extras_.hands && !extras_.face) return {};
+  const bool has_extras = extras_.hands || extras_.face;
+  extras_.load = LoadSteps(has_extras ? LoadStep::kAll : LoadStep::kBodyOnly,
+                           dancers_.size() > 1 ? LoadStep::kDancersByTurns : LoadStep::kBodyOnly);
+  if (!has_extras) return {};
   for (const auto& dancer : chain_->dancers())
     dancer->enable_extras(std::make_unique<HandsAndFace>(
         extras_, ExtraOptions{options_.smooth, options_.is_mirrored}));
@@ -228,9 +231,11 @@ void CaptureProgram::look(const CaptureFrame& seen) {
   if (!has_usual_size(seen.left.image)) return;
   chain_->see(seen.left, seen.right.empty() ? nullptr : &seen.right);
   const MonoTime now = mono_now();
-  if ((extras_.hands || extras_.face) &&
-      extras_.load.add(now - seen.left.fetched, last_picture_ - before, now))
+  if (extras_.load.add(now - seen.left.fetched, last_picture_ - before, now)) {
     talk::info("this machine's speed: {}", text_of(extras_.load.step()));
+    const bool are_by_turns = extras_.load.step() == LoadStep::kDancersByTurns;
+    chain_->source().set_turns(are_by_turns ? dancers_.size() : 1);
+  }
   // The pose is sent; nothing below blocks.
   const std::string_view advice = advice_.see(seen.left.image, chain_->bodies().front());
   if (!advice.empty()) talk::info("{}", advice);

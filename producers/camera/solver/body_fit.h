@@ -18,8 +18,8 @@
 #include "producers/camera/depth_hint.h"
 #include "producers/camera/solver/body_model.h"
 #include "producers/camera/solver/camera_placement.h"
+#include "producers/camera/solver/joint/other_view.h"
 #include "producers/camera/solver/observation.h"
-#include "producers/camera/solver/other_view.h"
 
 namespace dance {
 

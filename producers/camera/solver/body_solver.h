@@ -22,7 +22,7 @@
 #include "producers/camera/depth_hint.h"
 #include "producers/camera/pinhole.h"
 #include "producers/camera/solver/body_shape.h"
-#include "producers/camera/solver/other_view.h"
+#include "producers/camera/solver/joint/other_view.h"
 
 namespace dance {
 

@@ -6,7 +6,7 @@
 
 #include "core/motion/joint_limits.h"
 #include "producers/camera/solver/first_posture.h"
-#include "producers/camera/solver/joint_views.h"
+#include "producers/camera/solver/joint/joint_views.h"
 
 namespace dance {
 

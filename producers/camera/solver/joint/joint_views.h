@@ -1,7 +1,7 @@
-// JointViews: what other cameras saw, made ready for a fit together with the first camera's picture:
-// views whose network took a back for a front are mended or left out, points are moved to the first
-// picture's moment by the predicted motion, and a part that is hidden from one camera counts as seen
-// where another sees it.
+// JointViews: what other cameras saw, made ready for a fit together with the first camera's
+// picture: views whose network took a back for a front are mended or left out, points are moved to
+// the first picture's moment by the predicted motion, and a part that is hidden from one camera
+// counts as seen where another sees it.
 //
 // Units/frames: C is the first camera's frame, W the stage; metres, seconds.
 // Ownership:    plain functions over values of the caller; nothing allocates.

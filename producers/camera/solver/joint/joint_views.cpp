@@ -1,4 +1,4 @@
-#include "producers/camera/solver/joint_views.h"
+#include "producers/camera/solver/joint/joint_views.h"
 
 #include <algorithm>
 #include <cmath>
