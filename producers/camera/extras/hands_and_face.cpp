@@ -87,6 +87,7 @@ HandsAndFace::Due HandsAndFace::due(LoadStep step, std::uint64_t turn) {
     case LoadStep::kOneInTurn:
       return {turn % 6 == 0, turn % 6 == 2, turn % 6 == 4};
     case LoadStep::kBodyOnly:
+    case LoadStep::kDancersByTurns:
       break;
   }
   return {};

@@ -10,7 +10,7 @@ namespace {
 
 // Pictures at 30 Hz; what each takes is said by its step.
 struct Machine {
-  std::array<double, kLoadStepCount> busy_ms{};
+  std::array<double, 5> busy_ms{};  // of each LoadStep
   LoadSteps steps;
   MonoTime now = MonoTime{} + Duration::s(1);
   int changes = 0;
@@ -73,6 +73,18 @@ TEST(LoadSteps, APictureThatTakesNoTimeSaysNothing) {
   const MonoTime now = MonoTime{} + Duration::s(1);
   for (int i = 0; i < 100; ++i) EXPECT_FALSE(steps.add(Duration::ms(5), Duration{}, now));
   EXPECT_EQ(steps.step(), LoadStep::kAll);
+}
+
+TEST(LoadSteps, SeveralDancersAreSeenByTurnsAtLast) {
+  Machine machine;
+  machine.steps = LoadSteps(LoadStep::kBodyOnly, LoadStep::kDancersByTurns);
+  machine.busy_ms = {0.0, 0.0, 0.0, 40.0, 20.0};
+  EXPECT_EQ(machine.steps.step(), LoadStep::kBodyOnly);
+  machine.run(60.0);
+  EXPECT_EQ(machine.steps.step(), LoadStep::kDancersByTurns);
+  machine.busy_ms = {0.0, 0.0, 0.0, 15.0, 8.0};
+  machine.run(400.0);
+  EXPECT_EQ(machine.steps.step(), LoadStep::kBodyOnly) << "and no more than there is";
 }
 
 }  // namespace
