@@ -19,7 +19,7 @@ constexpr double kOutlier = 3.0;
 // The first spread, while nothing fits yet.
 constexpr double kFirstSpread = 20.0;
 // Of the turn that the networks' metres give.
-constexpr double kGivenTurnSd_rad = 0.15;
+constexpr double kGivenTurnSd_rad = 0.06;
 constexpr double kDamping = 1e-3;
 constexpr double kMostTurn_rad = 0.25, kMostLaterStep_s = 0.03;
 // So many residuals count as one: a network's errors last.
