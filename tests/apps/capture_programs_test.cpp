@@ -60,14 +60,23 @@ class CapturePrograms : public BusPrograms {
     if (!std::filesystem::exists(kVideo)) GTEST_SKIP() << "there is no " << kVideo;
   }
   std::string talk() { return text_of(folder_.path("talk")); }
-  // A raw film of some pictures of the video, small enough for a slow machine.
-  std::string raw_film(int pictures) {
+  // A raw film of some pictures of the video, small enough for a slow machine. With `is_twice` the
+  // person stands there a second time on the right, turned round and in other colours.
+  std::string raw_film(int pictures, bool is_twice = false) {
     VideoPictures video(kVideo);
     std::ofstream file(folder_.path("film.yuyv"), std::ios::binary);
     cv::Mat picture;
     cv::Mat small;
     for (int i = 0; i < pictures && video.next(picture); ++i) {
       cv::resize(picture, small, {640, 360}, 0, 0, cv::INTER_AREA);
+      if (is_twice) {
+        const cv::Mat left = small(cv::Rect(160, 0, 320, 360)).clone();
+        cv::Mat right;
+        cv::flip(left, right, 1);
+        cv::cvtColor(right, right, cv::COLOR_BGR2RGB);
+        left.copyTo(small(cv::Rect(0, 0, 320, 360)));
+        right.copyTo(small(cv::Rect(320, 0, 320, 360)));
+      }
       cv::Mat yuv;
       cv::cvtColor(small, yuv, cv::COLOR_BGR2YUV);
       std::vector<char> row(1280);
@@ -134,6 +143,43 @@ TEST_F(CapturePrograms, WaitForACameraThatWasUnplugged) {
   ASSERT_TRUE(wait_for([&] { return talk().find("is back") != std::string::npos; })) << talk();
   EXPECT_TRUE(wait_for([&] { return ear.has_more_than(before + 10); })) << talk();
   expect_good_dance(ear);
+}
+
+TEST_F(CapturePrograms, SeeTwoDancersBeforeOneCamera) {
+  CaptureEar ear;
+  const std::string json = folder_.path("output");
+  ChildProcess& capture =
+      start_before_shim("modes=YUYV:640x360@30 hz=30 file=" + raw_film(60, true),
+                        {"42", "--guest", "ann,ben", "--height", "1.6,1.8", "--model", "lite",
+                         "--hands", "off", "--bus", kBus, "--json"});
+  ASSERT_TRUE(wait_for([&] { return ear.has_more_than(40) && ear.guests.size() == 2; })) << talk();
+  capture.ask_to_stop();
+  ASSERT_TRUE(wait_for([&] { return capture.has_ended(); }));
+  EXPECT_TRUE(capture.ended_well()) << capture.exit_text() << talk();
+  EXPECT_EQ(ear.guests, (std::set<std::string>{"ann", "ben"}));
+  EXPECT_EQ(ear.before_skeleton, 0);
+  for (const Pose& pose : ear.poses) EXPECT_TRUE(is_valid(pose));
+  const auto counted = nlohmann::json::parse(text_of(json), nullptr, false);
+  ASSERT_FALSE(counted.is_discarded()) << text_of(json);
+  ASSERT_EQ(counted["dancers"].size(), 2u);
+  for (const auto& dancer : counted["dancers"]) {
+    EXPECT_GE(dancer["poses"].get<int>(), 10) << text_of(json);
+    EXPECT_NEAR(dancer["standing_height_m"].get<double>(), dancer["guest"] == "ann" ? 1.6 : 1.8,
+                0.08);
+  }
+}
+
+TEST_F(CapturePrograms, SayWhatDoesNotFitSeveralDancers) {
+  for (const auto& [words, cure] : {std::pair{"--guest ann,ann", "names ann twice"},
+                                    {"--guest a,b,c,d,e", "1 to 4 dancers"},
+                                    {"--guest ann,ben --height 1.7", "one for each dancer"},
+                                    {"--guest ann,ben --follow largest", "--follow chooses one"},
+                                    {"--guest ann,ben --also 3", "seen by one camera"}}) {
+    const Finished refused = run(bin("dance-capture") + " " + kVideo + " " + words +
+                                 " --model lite --bus " + quoted(kBus));
+    EXPECT_EQ(refused.exit_code, 1) << words;
+    EXPECT_NE(refused.talk.find(cure), std::string::npos) << words << ": " << refused.talk;
+  }
 }
 
 // Both see the same film from one place: there is nothing to place, and all else runs.

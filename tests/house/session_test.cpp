@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "consumers/consumer_table.h"
+#include "house/house_camera.h"
 
 namespace dance {
 namespace {
@@ -88,6 +89,29 @@ TEST(Session, NamesTheCameraOfADancer) {
       << "a file of the session's folder";
   EXPECT_EQ(session->cameras[2].device, "1") << "the camera's number";
   EXPECT_EQ(session->cameras[3].device, "HD Webcam") << "the camera's name";
+}
+
+TEST(Session, NamesWhoDanceBeforeOneCamera) {
+  const auto session =
+      parse_session(std::string(kHouse) +
+                        "[[produce]]\nkind = \"camera\"\nguest = \"alice\"\nheight = 1.68\n"
+                        "partners = [\"bob=1.80\", \"cara\"]\n",
+                    "s.toml");
+  ASSERT_TRUE(session) << session.error().what;
+  ASSERT_EQ(session->cameras.size(), 1u);
+  const HostedCamera& camera = session->cameras[0];
+  ASSERT_EQ(camera.partners.size(), 2u);
+  EXPECT_EQ(camera.partners[0].guest.view(), "bob");
+  EXPECT_EQ(camera.partners[0].height_m, 1.8);
+  EXPECT_EQ(camera.partners[1].guest.view(), "cara");
+  EXPECT_EQ(camera.partners[1].height_m, 0.0) << "not told";
+  const std::vector<std::string> words = camera_arguments(camera, "udpm://");
+  const auto after = [&](const std::string& option) {
+    const auto at = std::find(words.begin(), words.end(), option);
+    return at == words.end() || at + 1 == words.end() ? "" : *(at + 1);
+  };
+  EXPECT_EQ(after("--guest"), "alice,bob,cara");
+  EXPECT_EQ(after("--height"), "1.680000,1.800000,0.000000");
 }
 
 TEST(Session, HoldHandsLeavesPosesAsFastAsTheyCome) {
@@ -325,6 +349,11 @@ TEST(Session, RefusesWhatCannotBe) {
         house + "[[produce]]\nkind = \"camera\"\n",
         house + "[[produce]]\nkind = \"camera\"\nguest = \"a\"\nmodel = \"best\"\n",
         house + "[[produce]]\nkind = \"camera\"\nguest = \"a\"\nheight = 0.3\n",
+        house + "[[produce]]\nkind = \"camera\"\nguest = \"a\"\npartners = [\"b=0.3\"]\n",
+        house + "[[produce]]\nkind = \"camera\"\nguest = \"a\"\npartners = [\"b=tall\"]\n",
+        house + "[[produce]]\nkind = \"camera\"\nguest = \"a\"\npartners = [\"B!\"]\n",
+        house + "[[produce]]\nkind = \"camera\"\nguest = \"a\"\npartners = [\"b\", \"c\", \"d\", "
+                "\"e\"]\n",
         house + "[[produce]]\nkind = \"camera\"\nguest = \"a\"\nrole = \"lead\"\n",
         house + "[[listen]]\nto = \"fax\"\n",
         house + "[[listen]]\nto = \"text\"\nrate = 1e-12\n",
