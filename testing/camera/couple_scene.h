@@ -1,7 +1,8 @@
-// CoupleScene: two dancers before one simulated camera, and what the networks would see of them: who
-// hides whose joints is computed from their bodies, as are the colours of their clothes. A network
-// that looks for the one behind sees the one before, unless that one is taken out of the picture; of
-// hidden points it guesses, and takes a partner's arm for the dancer's own now and then.
+// CoupleScene: two dancers before one simulated camera, and what the networks would see of them:
+// who hides whose joints is computed from their bodies, as are the colours of their clothes. A
+// network that looks for the one behind sees the one before, unless that one is taken out of the
+// picture; of hidden points it guesses, and takes a partner's arm for the dancer's own now and
+// then.
 //
 // Units/frames: as testing/camera/capture_scene.h; both dancers in one C, each in a W of its own.
 // Ownership:    owns its scenes; find() is good until the next call.

@@ -1,6 +1,6 @@
-// PersonLook: the colours of a person's clothes in one picture; LookModel: those of a person, learned
-// over time, and how far a picture's are from them. By these, two dancers are told apart after one
-// has hidden the other.
+// PersonLook: the colours of a person's clothes in one picture; LookModel: those of a person,
+// learned over time, and how far a picture's are from them. By these, two dancers are told apart
+// after one has hidden the other.
 //
 // Units/frames: as producers/camera/people/people_vision.h says.
 // Ownership:    plain values, no heap.

@@ -18,8 +18,8 @@ namespace dance {
 class LandmarkSource {
  public:
   virtual ~LandmarkSource() = default;
-  // Of each dancer, always in the same order; not smoothed, as the solver smooths too, and smoothing
-  // twice would double the delay.
+  // Of each dancer, always in the same order; not smoothed, as the solver smooths too, and
+  // smoothing twice would double the delay.
   virtual std::span<const BodyLandmarks> see(const Frame& frame) = 0;
   // The camera was unplugged, or gives another size: the next picture is searched.
   virtual void restart() = 0;

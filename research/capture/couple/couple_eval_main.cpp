@@ -14,7 +14,7 @@ namespace dance {
 namespace {
 
 constexpr const char* kCoupleExamples = R"(Examples:
-  dance capture couple eval lead.bvh follow.bvh --avatar data/avatars/teo.vrm,data/avatars/marisol.vrm
+  dance capture couple eval lead.bvh follow.bvh --avatar teo.vrm,marisol.vrm
   dance capture couple eval lead.bvh follow.bvh --yaw 0,90 --pictures out/couple --json
 Pairs of takes follow each other: LEAD FOLLOW LEAD FOLLOW. Both are drawn as avatars by the viewer's
 renderer, and the real networks see the pictures.
