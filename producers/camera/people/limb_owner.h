@@ -48,13 +48,12 @@ class LimbMotion {
   std::array<Limb, kLimbs> limbs_;
 };
 
-// Marks as hidden, in each of the bodies, the limbs that are another's. `bodies` and `motions` are in
-// the same order; those without a body in this picture are null.
 struct LimbClaimant {
-  SeenBody* body = nullptr;
+  SeenBody* body = nullptr;  // null: not seen in this picture
   const LimbMotion* motion = nullptr;
   bool is_in_front = false;  // of all others: nearer to the camera
 };
+// Marks as hidden, in each of the bodies, the limbs that are another's. Returns how many these are.
 int resolve_limbs(std::span<const LimbClaimant> people, MonoTime now);
 
 }  // namespace dance

@@ -28,7 +28,7 @@ struct PeopleOptions {
   Duration search_interval = Duration::ms(100);
   // For so long after a loss the network looks in every picture where the person is expected.
   Duration probe_for = Duration::s(1);
-  // After so long out of sight a person's place says nothing any more, and who comes may be another.
+  // After so long out of sight a person's place says nothing any more, who comes may be another.
   Duration forget_after = Duration::s(10);
 };
 

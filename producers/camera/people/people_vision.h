@@ -1,6 +1,6 @@
 // PeopleVision: what the tracking of several people asks of one picture: who is in it, the body in
-// a region, and the colour at a place. Implemented by the networks (network_vision.h) and, for tests
-// and evaluations, by drawn scenes of known truth.
+// a region, and the colour at a place. Implemented by the networks (network_vision.h) and, for
+// tests and evaluations, by drawn scenes of known truth.
 //
 // Units/frames: pixels as producers/camera/estimator/region_sampler.h has them; colours are luma,
 //               blue and red difference, each 0…1.

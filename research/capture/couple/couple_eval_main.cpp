@@ -21,8 +21,8 @@ renderer, and the real networks see the pictures.
   right      frames outside of full occlusion (7 of 10 joints behind the partner) in which a dancer
              is found and is the right one; longest: how long an identity was wrong at most
   separate   the baseline: two estimators, each told at first where its dancer is
-  wrists     of the shown body, the middle of the hips removed, from the second second on: of each
-             dancer drawn alone, and of both together; in hold: a wrist within 25 cm of the partner's
+  wrists     of the shown body, the middle of the hips removed, two seconds later on: of each dancer
+             drawn alone, and of both together; in hold: a wrist within 25 cm of the partner's
 )";
 
 struct CoupleEvalWishes {
