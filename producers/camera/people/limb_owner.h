@@ -1,6 +1,7 @@
-// LimbOwner: whose limb it is where the network gives the same arm or leg of a picture to two people:
-// a partner's arm is not taken for one's own. The owner is who expected a limb there, whose bones are
-// long enough, and who is not behind the other's trunk; for the other it counts as hidden.
+// LimbOwner: whose limb it is where the network gives the same arm or leg of a picture to two
+// people: a partner's arm is not taken for one's own. The owner is who expected a limb there, whose
+// bones are long enough, and who is not behind the other's trunk; for the other it counts as
+// hidden.
 //
 // Units/frames: pixels of the picture.
 // Ownership:    plain value, no heap.

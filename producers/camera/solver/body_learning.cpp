@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "producers/camera/solver/body_tracking.h"
+#include "producers/camera/solver/joint/joint_views.h"
 
 namespace dance {
 
