@@ -26,6 +26,7 @@ std::vector<std::string> camera_arguments(const HostedCamera& camera, const std:
     words.emplace_back(option);
     words.push_back(value);
   };
+  add("--also", camera.also);
   add("--model", camera.model);
   add("--calibration", camera.calibration);
   if (camera.height_m > 0.0) add("--height", std::to_string(camera.height_m));
