@@ -33,6 +33,7 @@ std::vector<std::string> camera_arguments(const HostedCamera& camera, const std:
     words.emplace_back(option);
     words.push_back(value);
   };
+  add("--also", camera.also);
   add("--model", camera.model);
   add("--calibration", camera.calibration);
   if (has_height) add("--height", heights);

@@ -57,6 +57,7 @@ struct HostedCamera {
   };
   std::vector<Partner> partners;
   std::string device;       // as dance capture takes it; "" = the first camera
+  std::string also;         // another camera of the same dancer; "" = none
   std::string model;        // lite, full or heavy; "" = as dance capture chooses
   std::string calibration;  // a file; "" = none
   double height_m = 0.0;    // of the dancer; 0 = not told

@@ -39,6 +39,7 @@ void read_camera(TomlReader& reader, const std::filesystem::path& folder, HouseC
   HostedCamera camera;
   camera.guest = read_guest(reader, "guest", reader.required_string("guest"));
   camera.device = device_from(folder, reader.string_or("device", ""));
+  camera.also = device_from(folder, reader.string_or("also", ""));
   camera.model = reader.string_or("model", "");
   if (!camera.model.empty() && camera.model != "lite" && camera.model != "full" &&
       camera.model != "heavy")

@@ -131,7 +131,7 @@ void print_commands(std::FILE* out) {
     const bool is_measure = command.name.find(' ') != std::string_view::npos;
     if (is_for_dancers && is_measure) std::fputs("\nMeasuring and training:\n", out);
     is_for_dancers = !is_measure;
-    std::fprintf(out, "  %-*.*s %.*s\n", is_measure ? 19 : 12,
+    std::fprintf(out, "  %-*.*s %.*s\n", is_measure ? 21 : 12,
                  static_cast<int>(command.name.size()), command.name.data(),
                  static_cast<int>(command.summary.size()), command.summary.data());
   }

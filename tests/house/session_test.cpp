@@ -70,6 +70,7 @@ TEST(Session, NamesTheCameraOfADancer) {
           "\"lite\"\n"
           "calibration = \"left.yml\"\nheight = 1.68\nmirror = true\nhands = false\nface = true\n"
           "[[produce]]\nkind = \"camera\"\nguest = \"bob\"\ndevice = \"takes/bob.mp4\"\n"
+          "also = \"takes/bob-aside.mp4\"\n"
           "[[produce]]\nkind = \"camera\"\nguest = \"cara\"\ndevice = \"1\"\n"
           "[[produce]]\nkind = \"camera\"\nguest = \"dora\"\ndevice = \"HD Webcam\"\n",
       "/home/alice/s.toml");
@@ -87,6 +88,8 @@ TEST(Session, NamesTheCameraOfADancer) {
   EXPECT_FALSE(session->cameras[1].face) << "a face leaves the house by a wish only";
   EXPECT_EQ(session->cameras[1].device, "/home/alice/takes/bob.mp4")
       << "a file of the session's folder";
+  EXPECT_EQ(session->cameras[1].also, "/home/alice/takes/bob-aside.mp4");
+  EXPECT_EQ(session->cameras[0].also, "");
   EXPECT_EQ(session->cameras[2].device, "1") << "the camera's number";
   EXPECT_EQ(session->cameras[3].device, "HD Webcam") << "the camera's name";
 }

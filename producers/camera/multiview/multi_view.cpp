@@ -63,7 +63,8 @@ bool MultiView::write_view(Other& other, MonoTime now, OtherView& out) {
   out.seen = other.seen;
   out.R_VC = pose.R_BA;
   out.p_VC_m = placement->baseline_m * pose.p_BA;
-  // What rays miss each other by beyond their noise, and how far a body goes that changes its speed.
+  // What rays miss each other by beyond their noise, and how far a body goes that changes its
+  // speed.
   const double beyond = std::max(0.0, placement->spread * placement->spread - 1.0);
   out.placement_sd = std::hypot(other.seen.ray_sd * std::sqrt(beyond),
                                 kChange_rays_s2 * out.older_s * out.older_s);

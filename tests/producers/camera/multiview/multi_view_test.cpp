@@ -186,10 +186,10 @@ TEST(RelativePose, RaysOfAPointMeetThere) {
   EXPECT_LT((met.p_A - p_A).norm(), 1e-9);
   EXPECT_GT(met.variance, 0.0);
   EXPECT_LT(met.variance, 1e-3);
-  // Behind the second camera.
-  EXPECT_FALSE(meet(pose, p_A.hnormalized(), (-p_B).hnormalized() + Eigen::Vector2d(3.0, 0.0),
-                    0.002, 0.002, met) &&
-               met.p_A.z() < 0.0);
+  // The same rays, lengthened backwards, meet behind the first camera.
+  const Eigen::Vector3d behind_A(0.3, -0.2, -1.4);
+  const Eigen::Vector3d behind_B = pose.R_BA * behind_A + pose.p_BA;
+  EXPECT_FALSE(meet(pose, behind_A.hnormalized(), behind_B.hnormalized(), 0.002, 0.002, met));
 }
 
 }  // namespace
