@@ -1,5 +1,5 @@
-// Where the eyes of a face look, by where their dark parts are between the corners: the face network
-// has no points of the irises.
+// Where the eyes of a face look, by where their dark parts are between the corners: the face
+// network has no points of the irises.
 //
 // Units/frames: radians to the dancer's left and up, in the head; of the eyes at rest the offset is
 //               not known.
