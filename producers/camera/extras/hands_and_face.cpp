@@ -1,5 +1,7 @@
 #include "producers/camera/extras/hands_and_face.h"
 
+#include "producers/camera/face/gaze.h"
+
 namespace dance {
 namespace {
 
@@ -101,8 +103,11 @@ void HandsAndFace::look(const Picture& picture) {
     publish_hands(picture);
   }
   if (face_) {
-    if (is_due.face)
-      expressions_.see(face_->look(picture.frame, picture.body), picture.frame.capture_time);
+    if (is_due.face) {
+      const FaceLandmarks& face = face_->look(picture.frame, picture.body);
+      expressions_.see(face, picture.frame.capture_time);
+      expressions_.see_gaze(gaze_of(picture.frame.image, face));
+    }
     publish_face(picture);
   }
 }

@@ -13,6 +13,9 @@ namespace {
 // What noise makes of a face at rest.
 constexpr float kQuiet = 0.08f;
 constexpr OneEuroSetting kWeights{2.0, 1.5, 1.0};
+constexpr OneEuroSetting kGaze{1.0, 1.0, 1.0};
+// At which ARKit's looks are full.
+constexpr float kFullLook_rad = 0.6f;
 constexpr double kFaceFirst_hz = 30.0;
 constexpr Duration kFaceKept = Duration::ms(300);
 constexpr Duration kFaceFades = Duration::ms(700);
@@ -155,12 +158,41 @@ void FaceSolver::see(const FaceLandmarks& face, MonoTime now) {
     weight_[i] = std::clamp(filters_[i].next(seen[i], hz, 1.0, setting), 0.0f, 1.0f);
 }
 
+void FaceSolver::see_gaze(const std::optional<Eigen::Vector2f>& gaze_rad) {
+  has_gaze_ = false;
+  if (!is_seen_ || !gaze_rad || !gaze_rad->allFinite()) return;
+  if (!knows_rest() || gazes_ == 0) {
+    gaze_sum_rad_ += *gaze_rad;
+    ++gazes_;
+    return;
+  }
+  const Eigen::Vector2f off = *gaze_rad - gaze_sum_rad_ / static_cast<float>(gazes_);
+  for (int k = 0; k < 2; ++k)
+    gaze_rad_[k] = std::clamp(
+        gaze_filters_[static_cast<std::size_t>(k)].next(off[k], kFaceFirst_hz, 1.0, kGaze),
+        -kMostGaze_rad, kMostGaze_rad);
+  has_gaze_ = true;
+}
+
 bool FaceSolver::write(MonoTime now, Face& out) const {
   out.presence = is_seen_ ? kFaceSeen : 0;
   if (!has_seen_) return false;
   const double past = (now - seen_ - kFaceKept).as_seconds() / kFaceFades.as_seconds();
   const auto share = static_cast<float>(1.0 - std::clamp(past, 0.0, 1.0));
   for (std::size_t i = 0; i < kExpressionCount; ++i) out.weight[i] = share * weight_[i];
+  if (!has_gaze_) return share > 0.0f;
+  out.presence |= kGazeSeen;
+  out.gaze_rad = {gaze_rad_.x(), gaze_rad_.y()};
+  const auto look = [&](Expression left_eye, Expression right_eye, float angle) {
+    const float value = std::clamp(angle / kFullLook_rad, 0.0f, 1.0f);
+    out[left_eye] = value;
+    out[right_eye] = value;
+  };
+  using E = Expression;
+  look(E::kEyeLookOutLeft, E::kEyeLookInRight, gaze_rad_.x());
+  look(E::kEyeLookInLeft, E::kEyeLookOutRight, -gaze_rad_.x());
+  look(E::kEyeLookUpLeft, E::kEyeLookUpRight, gaze_rad_.y());
+  look(E::kEyeLookDownLeft, E::kEyeLookDownRight, -gaze_rad_.y());
   return share > 0.0f;
 }
 

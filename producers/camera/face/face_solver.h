@@ -1,7 +1,7 @@
 // FaceSolver: turns a face's points into the 52 expressions of ARKit. What a face looks like at
 // rest is learned in the first two seconds in which it looks about ahead; an expression is how far
 // distances between points differ from that. Some cannot be told from these points and stay 0:
-// cheekPuff, jawForward, mouthDimple, tongueOut, and where the eyes look.
+// cheekPuff, jawForward, mouthDimple, tongueOut.
 //
 // Units/frames: as core/pose/face.h and producers/camera/face/face_features.h say.
 // Ownership:    keeps the numbers of the first pictures (7 KB); no heap.
@@ -29,6 +29,9 @@ class FaceSolver {
 
   // The face as it is in the picture of `now`.
   void see(const FaceLandmarks& face, MonoTime now);
+  // After see(): where the eyes look, gaze_of(). What they do on average while the face at rest is
+  // learned is straight ahead.
+  void see_gaze(const std::optional<Eigen::Vector2f>& gaze_rad);
   // Weights and presence. False where no face has been seen for so long that all have faded.
   bool write(MonoTime now, Face& out) const;
   // Of the last face that was seen.
@@ -47,6 +50,11 @@ class FaceSolver {
   FaceFeatures rest_{};
   std::array<OneEuro, kExpressionCount> filters_;
   std::array<float, kExpressionCount> weight_{};
+  Eigen::Vector2f gaze_sum_rad_ = Eigen::Vector2f::Zero();
+  int gazes_ = 0;
+  std::array<OneEuro, 2> gaze_filters_;
+  Eigen::Vector2f gaze_rad_ = Eigen::Vector2f::Zero();
+  bool has_gaze_ = false;
   Eigen::Quaternionf R_CHead_ = Eigen::Quaternionf::Identity();
   bool is_seen_ = false, has_seen_ = false;
   MonoTime seen_;
