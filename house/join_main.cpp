@@ -88,17 +88,35 @@ Result<void> use_invitation(JoinOptions& options) {
   return {};
 }
 
-bool has_source(const HouseConfig& session, const GuestId& guest) {
-  const auto is_of = [&](const GuestId& other) { return other == guest; };
-  const auto is_before = [&](const HostedCamera& camera) {
-    return is_of(camera.guest) || std::any_of(camera.partners.begin(), camera.partners.end(),
-                                              [&](const auto& p) { return is_of(p.guest); });
+// A camera sees the first guest, and further ones that are named beside.
+Result<void> put_before_camera(HouseConfig& session, const std::vector<GuestId>& named,
+                               const std::string& device) {
+  constexpr std::size_t kMostPartners = 3;
+  if (session.guests.empty()) return fail("--camera: who dances? name the guest with --guest");
+  HostedCamera camera;
+  camera.guest = session.guests.front();
+  if (device != "auto") camera.device = device;
+  for (const GuestId& guest : named)
+    if (guest != camera.guest) camera.partners.push_back({guest, 0.0});
+  if (camera.partners.size() > kMostPartners)
+    return fail("--camera: one camera sees four dancers at most; name fewer guests");
+  // Where the session file has one for this guest, another device; a dancer that stands in for the
+  // camera makes room.
+  const auto is_before = [&](const GuestId& guest) {
+    return guest == camera.guest ||
+           std::any_of(camera.partners.begin(), camera.partners.end(),
+                       [&](const auto& partner) { return partner.guest == guest; });
   };
-  return std::any_of(session.producers.begin(), session.producers.end(),
-                     [&](const auto& p) { return is_of(p.guest); }) ||
-         std::any_of(session.receivers.begin(), session.receivers.end(),
-                     [&](const auto& r) { return is_of(r.options.guest); }) ||
-         std::any_of(session.cameras.begin(), session.cameras.end(), is_before);
+  std::erase_if(session.producers, [&](const auto& p) { return is_before(p.guest); });
+  const auto has = std::find_if(session.cameras.begin(), session.cameras.end(),
+                                [&](const auto& c) { return c.guest == camera.guest; });
+  if (has == session.cameras.end()) {
+    session.cameras.push_back(camera);
+  } else {
+    has->device = camera.device;
+    if (!camera.partners.empty()) has->partners = camera.partners;
+  }
+  return {};
 }
 
 Result<HouseConfig> session_of(const JoinOptions& options) {
@@ -114,7 +132,7 @@ Result<HouseConfig> session_of(const JoinOptions& options) {
     DANCE_TRY(const GuestId guest, guest_of(name));
     guests.push_back(guest);
   }
-  if (!guests.empty()) replace_guests(session, std::move(guests));
+  if (!guests.empty()) replace_guests(session, guests);
   if (!options.room.empty()) session.room = options.room;
   if (!GuestId::parse(session.room))
     return fail("--room '" + session.room +
@@ -129,25 +147,9 @@ Result<HouseConfig> session_of(const JoinOptions& options) {
     if (!hearing) return fail("--hear " + hearing.error().what);
     session.hearing = *hearing;
   }
-  if (!options.camera.empty()) {
-    if (session.guests.empty()) return fail("--camera: who dances? name the guest with --guest");
-    HostedCamera camera;
-    camera.guest = session.guests.front();
-    // Further guests who come from nowhere else dance before it too.
-    for (const GuestId& guest : session.guests)
-      if (guest != camera.guest && !has_source(session, guest))
-        camera.partners.push_back({guest, 0.0});
-    if (options.camera != "auto") camera.device = options.camera;
-    // Where the session file has one for this guest, another device; a dancer that stands in for
-    // the camera makes room.
-    std::erase_if(session.producers, [&](const auto& p) { return p.guest == camera.guest; });
-    const auto has = std::find_if(session.cameras.begin(), session.cameras.end(),
-                                  [&](const auto& c) { return c.guest == camera.guest; });
-    if (has == session.cameras.end())
-      session.cameras.push_back(camera);
-    else
-      has->device = camera.device;
-  }
+  if (!options.camera.empty())
+    if (auto put = put_before_camera(session, guests, options.camera); !put)
+      return tl::make_unexpected(put.error());
   for (const std::string& text : options.avatars) {
     AvatarOfGuest wish = parse_avatar_of_guest(text);
     if (!wish.guest.is_set() && session.guests.empty())
@@ -243,7 +245,8 @@ int main(int argc, char** argv) {
       "whose voices come here, instead of the session file's hear: NAME=0 not this guest's, NAME=1 "
       "this guest's; default=0 nobody's who is not named; may be repeated");
   line.add("--camera", options.camera,
-           "a camera sees the guests who come from nowhere else: auto, /dev/videoN, a number or a "
+           "a camera sees the first guest, and those that further --guest name: auto, /dev/videoN, "
+           "a number or a "
            "video; instead of what "
            "the session file says");
   line.add(

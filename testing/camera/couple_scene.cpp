@@ -44,7 +44,7 @@ CoupleScene::CoupleScene(const std::array<CoupleDancer, 2>& dancers, double hz, 
   for (const CoupleDancer& dancer : dancers)
     for (const Pose& pose : dancer.poses)
       middle += pose.p_WH_m.cast<double>() / static_cast<double>(2 * dancer.poses.size());
-  camera.middle_m = middle;
+  if (!camera.middle_m) camera.middle_m = middle;
   for (std::size_t i = 0; i < 2; ++i)
     scenes_[i] = make_scene(i == 0 ? "first" : "second", dancers[i].skeleton, dancers[i].poses, hz,
                             camera, errors.network, seed + i);
@@ -124,6 +124,12 @@ BodyRegion CoupleScene::region(std::size_t frame, std::size_t dancer) const {
   return region_of(middle, middle - Vector2f(0.0f, radius));
 }
 
+bool CoupleScene::is_in_picture(const BodyRegion& body) const {
+  const Pinhole& pinhole = scenes_[0].camera.pinhole;
+  return body.centre_x_px > 0.0f && body.centre_x_px < static_cast<float>(pinhole.width_px) &&
+         body.centre_y_px > 0.0f && body.centre_y_px < static_cast<float>(pinhole.height_px);
+}
+
 bool CoupleScene::is_in_front(std::size_t frame, std::size_t dancer) const {
   const auto depth = [&](std::size_t i) {
     return point_C(frame, i, index_of(Landmark::kLeftHip)).z() +
@@ -149,8 +155,8 @@ void CoupleScene::show(std::size_t frame) {
 std::span<const SeenPerson> CoupleScene::find() {
   std::size_t count = 0;
   for (std::size_t i = 0; i < 2; ++i) {
-    if (hidden(frame_, i) > 1.0 - kFound) continue;
     BodyRegion seen = region(frame_, i);
+    if (hidden(frame_, i) > 1.0 - kFound || !is_in_picture(seen)) continue;
     seen.centre_x_px += static_cast<float>(0.01 * random_.normal()) * seen.side_px;
     seen.centre_y_px += static_cast<float>(0.01 * random_.normal()) * seen.side_px;
     people_[count++] = {0.9f, seen};
@@ -187,7 +193,9 @@ bool CoupleScene::read(const BodyRegion& wished, std::span<const SeenBody* const
   if (hidden(frame_, seen) > kTakenForPartner && is_in_front(frame_, 1 - seen) && !is_out[1 - seen])
     seen = 1 - seen;
   const double hidden_share = hidden(frame_, seen);
-  out.body.presence = off[seen] > 0.6f ? 0.1f : static_cast<float>(1.0 - 0.8 * hidden_share);
+  out.body.presence = off[seen] > 0.6f || !is_in_picture(region(frame_, seen))
+                          ? 0.1f
+                          : static_cast<float>(1.0 - 0.8 * hidden_share);
   const BodyLandmarks& landmarks = scenes_[seen].frames[frame_].landmarks;
   out.body.image_px = landmarks.image_px;
   out.body.world_m = landmarks.world_m;

@@ -66,6 +66,7 @@ class CoupleScene final : public PeopleVision {
   Bars bars(std::size_t frame, std::size_t dancer) const;
   std::array<bool, kLandmarkCount> hidden_points(std::size_t frame, std::size_t dancer) const;
   BodyRegion region(std::size_t frame, std::size_t dancer) const;
+  bool is_in_picture(const BodyRegion& body) const;
   bool is_in_front(std::size_t frame, std::size_t dancer) const;
   void take_arms(std::size_t dancer, SeenBody& body);
 

@@ -10,6 +10,7 @@ constexpr double kMeanOf_s = 1.0;
 constexpr double kTooMuch = 0.88;
 // The next step up costs about half as much again.
 constexpr double kLight = 0.55;
+constexpr double kFits = 0.8;
 // A step is kept for so long before it is judged.
 constexpr Duration kJudged = Duration::ms(1500);
 constexpr Duration kFirstPatience = Duration::s(10);
@@ -39,6 +40,12 @@ void LoadSteps::take(LoadStep step, MonoTime now) {
   load_ = 0.0;
 }
 
+// Below this load the next step up is tried: where dancers are seen by turns, all of them together
+// cost as many times as much.
+double LoadSteps::light() const {
+  return step_ == LoadStep::kDancersByTurns ? kFits / static_cast<double>(dancers_) : kLight;
+}
+
 bool LoadSteps::add(Duration busy, Duration period, MonoTime now) {
   if (!since_.is_set()) {
     take(first_, now);
@@ -47,7 +54,7 @@ bool LoadSteps::add(Duration busy, Duration period, MonoTime now) {
   if (period <= Duration{} || busy < Duration{}) return false;
   const double share = std::min(2.0, busy.as_seconds() / period.as_seconds());
   load_ += (1.0 - std::exp(-period.as_seconds() / kMeanOf_s)) * (share - load_);
-  if (load_ > kLight) light_since_ = now;
+  if (load_ > light()) light_since_ = now;
   if (now - since_ < kJudged) return false;
   const int step = static_cast<int>(step_);
   if (load_ > kTooMuch && step_ < last_) {

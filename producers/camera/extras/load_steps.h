@@ -28,8 +28,9 @@ std::string_view text_of(LoadStep step);
 class LoadSteps {
  public:
   // From the first to the last of them, as there is something to leave out.
-  explicit LoadSteps(LoadStep first = LoadStep::kAll, LoadStep last = LoadStep::kBodyOnly)
-      : first_(first), last_(last), step_(first) {}
+  explicit LoadSteps(LoadStep first = LoadStep::kAll, LoadStep last = LoadStep::kBodyOnly,
+                     std::size_t dancers = 1)
+      : first_(first), last_(last), dancers_(dancers), step_(first) {}
   // A picture took `busy` of the `period` since the one before. True where the step is another now.
   bool add(Duration busy, Duration period, MonoTime now);
   LoadStep step() const { return step_; }
@@ -37,7 +38,10 @@ class LoadSteps {
  private:
   void take(LoadStep step, MonoTime now);
 
+  double light() const;
+
   LoadStep first_, last_;
+  std::size_t dancers_;
   LoadStep step_;
   double load_ = 0.0;  // of one core, mean of about a second
   MonoTime since_;     // of this step

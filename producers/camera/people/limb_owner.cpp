@@ -95,7 +95,7 @@ void hide(SeenBody& body, std::size_t limb, bool only_end) {
 float cost_of(const LimbClaimant& own, const SeenBody& other, std::size_t limb, MonoTime now) {
   const SeenBody& body = *own.body;
   float cost = 0.0f;
-  if (own.motion->is_known(limb)) {
+  if (own.motion->is_known(limb, now)) {
     const LimbMotion::Ends expected = own.motion->expected(body, limb, now);
     const auto ends = ends_of(limb);
     for (std::size_t i = 0; i < 2; ++i) {
@@ -125,8 +125,8 @@ bool are_one(const SeenBody& a, std::size_t limb_a, const SeenBody& b, std::size
 }
 
 // The end of a limb that reaches too far, to where the other's is.
-bool ends_in(const LimbClaimant& own, const SeenBody& other, std::size_t limb) {
-  if (!own.motion->is_known(limb) || !(own.motion->excess(*own.body, limb)[1] > kTooLong))
+bool ends_in(const LimbClaimant& own, const SeenBody& other, std::size_t limb, MonoTime now) {
+  if (!own.motion->is_known(limb, now) || !(own.motion->excess(*own.body, limb)[1] > kTooLong))
     return false;
   const Eigen::Vector2f end = place_px(*own.body, kLimbPoints[limb].end);
   const std::size_t kind = limb / 2 * 2;
@@ -140,7 +140,7 @@ int resolve_pair(const LimbClaimant& a, const LimbClaimant& b, MonoTime now) {
   int hidden = 0;
   for (std::size_t limb = 0; limb < LimbMotion::kLimbs; ++limb)
     for (const auto& [own, other] : {std::pair(&a, &b), std::pair(&b, &a)})
-      if (is_seen(*own->body, limb) && ends_in(*own, *other->body, limb)) {
+      if (is_seen(*own->body, limb) && ends_in(*own, *other->body, limb, now)) {
         hide(*own->body, limb, true);
         ++hidden;
       }

@@ -31,7 +31,10 @@ class LimbMotion {
   void update(const SeenBody& body, MonoTime now);
   // Where this body's limb is expected, by its motion beside the trunk.
   Ends expected(const SeenBody& body, std::size_t limb, MonoTime now) const;
-  bool is_known(std::size_t limb) const { return limbs_[limb].pictures >= kKnown; }
+  // And seen lately.
+  bool is_known(std::size_t limb, MonoTime now) const {
+    return limbs_[limb].pictures >= kKnown && now - limbs_[limb].seen < Duration::s(1);
+  }
   // By how much each of the limb's two bones is longer than it ever was, as a share of that; 0: it
   // is not.
   std::array<float, 2> excess(const SeenBody& body, std::size_t limb) const;

@@ -12,15 +12,14 @@ Result<std::unique_ptr<PeopleEstimator>> PeopleEstimator::open(const EstimatorOp
   return std::unique_ptr<PeopleEstimator>(new PeopleEstimator(std::move(vision), people));
 }
 
-void PeopleEstimator::reset() { tracker_.reset(); }
-
 std::span<const BodyLandmarks> PeopleEstimator::estimate(const Frame& frame,
                                                          const PeopleTracker::Reads& reads) {
   const std::span<BodyLandmarks> all(landmarks_.data(), tracker_.people());
-  for (BodyLandmarks& landmarks : all) {
-    landmarks.found = landmarks.is_new = false;
-    landmarks.presence = 0.0f;
-    landmarks.capture_time = frame.capture_time;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!reads[i]) continue;
+    all[i].found = all[i].is_new = false;
+    all[i].presence = 0.0f;
+    all[i].capture_time = frame.capture_time;
   }
   if (frame.image.type() != CV_8UC3 || frame.image.empty()) return all;
   if (frame.image.size() != picture_size_) tracker_.reset();

@@ -22,12 +22,14 @@ class PeopleEstimator {
   static Result<std::unique_ptr<PeopleEstimator>> open(const EstimatorOptions& networks,
                                                        const PeopleOptions& people);
 
-  // The landmarks of each, not smoothed. Without `reads` a dancer is left out of this picture:
-  // nothing is said of that one.
+  // The landmarks of each, not smoothed. Without `reads` a dancer is left out of this picture: the
+  // landmarks are those of the last one.
   std::span<const BodyLandmarks> estimate(const Frame& frame, const PeopleTracker::Reads& reads = {
                                                                   true, true, true, true});
   // Another camera, or another size: all are searched for.
-  void reset();
+  void reset() { tracker_.reset(); }
+  // The camera was away: all are searched for, and known by their clothes.
+  void lose_all() { tracker_.lose_all(); }
 
   const PeopleTracker& tracker() const { return tracker_; }
 

@@ -50,10 +50,14 @@ void PeopleTracker::exchange(std::size_t a, std::size_t b) {
   std::swap(tracks_[a], tracks_[b]);
   std::swap(tracks_[a].look, tracks_[b].look);
   std::swap(lowest_px_[a], lowest_px_[b]);
+  std::swap(is_left_out_[a], is_left_out_[b]);
+  doubt_[a] = doubt_[b] = 0.0f;
+  for (std::size_t i = 0; i < kMostDancers; ++i)
+    evidence_[a][i] = evidence_[b][i] = evidence_[i][a] = evidence_[i][b] = 0.0f;
   limbs_[a].reset();
   limbs_[b].reset();
   for (const std::size_t i : {a, b})
-    if (found_[i].is_found) found_[i].is_new = found_[i].is_exchanged = true;
+    if (found_[i].is_found) found_[i].is_new = true;
 }
 
 void PeopleTracker::judge_identities(PeopleVision& vision, MonoTime now) {
@@ -74,7 +78,7 @@ void PeopleTracker::judge_identities(PeopleVision& vision, MonoTime now) {
       const float apart = distance(a, b, now);
       if (apart < kApart_sides) may_learn[a] = may_learn[b] = false;
       if (!tracks_[a].look.is_known() || !tracks_[b].look.is_known()) continue;
-      const bool are_both = found_[a].is_found && found_[b].is_found;
+      const bool are_both = present(a) && present(b);
       const float weight =
           are_both ? std::clamp((apart - kNear_sides) / (kApart_sides - kNear_sides), 0.0f, 1.0f)
                    : 1.0f;

@@ -24,6 +24,7 @@ constexpr float kFrontWeight = 0.2f;
 constexpr float kPlaceSd_sides = 0.1f, kPlaceSd_sides_per_s = 0.6f, kMostPlace = 12.0f;
 constexpr float kSizeSd = 0.2f, kMostSize = 6.0f;
 constexpr float kLookWeight = 1.5f;
+constexpr std::size_t kMoreCandidates = 2;
 constexpr float kStranger = 6.0f, kNobody = 15.0f;
 constexpr float kOtherLook = 4.0f;
 
@@ -66,7 +67,25 @@ void PeopleTracker::reset() {
   limbs_.fill({});
   evidence_ = {};
   doubt_ = {};
+  lowest_px_ = {};
+  is_left_out_ = {};
   last_search_ = {};
+}
+
+void PeopleTracker::lose_all() {
+  for (PersonTrack& track : tracks_) track.lose();
+  last_search_ = {};
+}
+
+void PeopleTracker::forget(std::size_t person) {
+  tracks_[person].reset();
+  limbs_[person].reset();
+  doubt_[person] = lowest_px_[person] = 0.0f;
+  for (std::size_t i = 0; i < kMostDancers; ++i) evidence_[i][person] = evidence_[person][i] = 0.0f;
+}
+
+const SeenBody* PeopleTracker::present(std::size_t person) const {
+  return found_[person].is_found || is_left_out_[person] ? &found_[person].body : nullptr;
 }
 
 // Those who have been found already are nearer to the camera: the others are read without them.
@@ -75,10 +94,12 @@ bool PeopleTracker::read(PeopleVision& vision, const BodyRegion& region, ReadBod
   ++counters_.reads;
   std::array<const SeenBody*, kMostDancers> others{};
   std::size_t count = 0;
-  for (std::size_t i = 0; i < options_.people; ++i)
-    if (found_[i].is_found && (centre_of(region_after(found_[i].body)) - centre_of(region)).norm() <
-                                  kOverlap_sides * region.side_px)
-      others[count++] = &found_[i].body;
+  for (std::size_t i = 0; i < options_.people; ++i) {
+    const SeenBody* other = present(i);
+    if (other && (centre_of(region_after(*other)) - centre_of(region)).norm() <
+                     kOverlap_sides * region.side_px)
+      others[count++] = other;
+  }
   return vision.read(region, std::span(others.data(), count), out) &&
          out.body.presence > options_.least_presence &&
          region_after(out.body).side_px >= kLeastSide_px;
@@ -106,6 +127,8 @@ void PeopleTracker::read_tracked(PeopleVision& vision, MonoTime now, const Reads
   ReadBody seen;
   for (const std::size_t i : from_front()) {
     if (i >= options_.people) continue;
+    // Without pictures for so long anybody may be there.
+    if (now - tracks_[i].seen() > options_.probe_for) tracks_[i].lose();
     const std::optional<BodyRegion> region = tracks_[i].next();
     if (!reads[i] || !region) continue;
     if (read(vision, *region, seen) && tracks_[i].is_plausible(region_after(seen.body), now))
@@ -120,9 +143,8 @@ void PeopleTracker::read_tracked(PeopleVision& vision, MonoTime now, const Reads
 void PeopleTracker::separate_duplicates(PeopleVision& vision, MonoTime now) {
   for (std::size_t a = 0; a < options_.people; ++a)
     for (std::size_t b = a + 1; b < options_.people; ++b) {
-      if (!found_[a].is_found || !found_[b].is_found ||
-          !are_one_body(found_[a].body, found_[b].body))
-        continue;
+      const SeenBody *first = present(a), *second = present(b);
+      if (!first || !second || !are_one_body(*first, *second)) continue;
       ++counters_.duplicates;
       const auto against = [&](std::size_t i) {
         const SeenBody& body = found_[i].body;
@@ -135,14 +157,14 @@ void PeopleTracker::separate_duplicates(PeopleVision& vision, MonoTime now) {
         return std::min(off * off, kMostPlace) + kLookWeight * look;
       };
       const std::size_t hidden = against(a) > against(b) ? a : b;
-      found_[hidden].is_found = false;
+      found_[hidden].is_found = is_left_out_[hidden] = false;
       tracks_[hidden].lose();
     }
 }
 
 bool PeopleTracker::is_of_somebody(const SeenBody& body) const {
   for (std::size_t i = 0; i < options_.people; ++i)
-    if (found_[i].is_found && are_one_body(found_[i].body, body)) return true;
+    if (const SeenBody* other = present(i); other && are_one_body(*other, body)) return true;
   return false;
 }
 
@@ -225,18 +247,21 @@ float PeopleTracker::cost_of(std::size_t person, const Candidate& candidate, Mon
 // From the left to the right, so that persons who were never seen are numbered in this order.
 std::size_t PeopleTracker::find_candidates(PeopleVision& vision, std::size_t wanted) {
   std::size_t count = 0;
+  // More than are missing, so that a bystander is in nobody's way; but not the whole street.
+  std::size_t may_read = wanted + kMoreCandidates;
   for (const SeenPerson& person : vision.find()) {
-    if (count == wanted) break;
-    const bool is_tracked = std::any_of(
-        found_.begin(), found_.begin() + static_cast<std::ptrdiff_t>(options_.people),
-        [&](const PersonInPicture& found) {
-          return found.is_found &&
-                 (centre_of(region_after(found.body)) - centre_of(person.region)).norm() <
-                     kSame_sides * person.region.side_px;
-        });
+    if (count == candidates_.size() || may_read == 0) break;
+    bool is_tracked = false;
+    for (std::size_t i = 0; i < options_.people; ++i) {
+      const SeenBody* other = present(i);
+      is_tracked = is_tracked ||
+                   (other && (centre_of(region_after(*other)) - centre_of(person.region)).norm() <
+                                 kSame_sides * person.region.side_px);
+    }
+    if (is_tracked) continue;
+    --may_read;
     Candidate& candidate = candidates_[count];
-    if (is_tracked || !read(vision, person.region, candidate.seen) ||
-        is_of_somebody(candidate.seen.body))
+    if (!read(vision, person.region, candidate.seen) || is_of_somebody(candidate.seen.body))
       continue;
     const bool is_double = std::any_of(
         candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(count),
@@ -280,8 +305,7 @@ void PeopleTracker::search(PeopleVision& vision, MonoTime now, const Reads& read
     if (track.was_ever_seen() && now - track.seen() > options_.forget_after) {
       const auto look = track.look.distance(candidates_[c].look);
       if (!look || *look > kOtherLook) {
-        track.reset();
-        limbs_[person].reset();
+        forget(person);
       }
     }
     take(person, candidates_[c].region, candidates_[c].seen, true);
@@ -313,7 +337,10 @@ void PeopleTracker::hide_covered() {
 std::span<const PersonInPicture> PeopleTracker::update(PeopleVision& vision, MonoTime now,
                                                        const Reads& reads) {
   ++counters_.pictures;
-  for (PersonInPicture& found : found_) found.is_found = found.is_new = found.is_exchanged = false;
+  for (std::size_t i = 0; i < kMostDancers; ++i) {
+    found_[i].is_found = found_[i].is_new = false;
+    is_left_out_[i] = i < options_.people && !reads[i] && tracks_[i].next().has_value();
+  }
   read_tracked(vision, now, reads);
   separate_duplicates(vision, now);
   probe_missing(vision, now, reads);

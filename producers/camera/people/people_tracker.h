@@ -34,9 +34,8 @@ struct PeopleOptions {
 
 struct PersonInPicture {
   bool is_found = false;
-  bool is_new = false;        // nothing before belongs to this body
-  bool is_exchanged = false;  // this body was taken for another person's until now
-  BodyRegion region;          // that the network looked at
+  bool is_new = false;  // nothing before belongs to this body
+  BodyRegion region;    // that the network looked at
   SeenBody body;
   std::bitset<kLandmarkCount> is_covered;  // points that another person hides
 };
@@ -55,11 +54,14 @@ class PeopleTracker {
   explicit PeopleTracker(const PeopleOptions& options) : options_(options) {}
 
   // One picture. With `reads` false for a person, the network does not look for that one in this
-  // picture (the load is too high): as if the picture had not been for that person.
+  // picture (the load is too high), who is still known to be there: nothing is said of that one.
   using Reads = std::array<bool, kMostDancers>;
   std::span<const PersonInPicture> update(PeopleVision& vision, MonoTime now,
                                           const Reads& reads = {true, true, true, true});
+  // Another picture size: nothing before says anything.
   void reset();
+  // The camera was away: all are searched for, and known by their clothes.
+  void lose_all();
 
   std::size_t people() const { return options_.people; }
   const PersonTrack& track(std::size_t person) const { return tracks_[person]; }
@@ -77,7 +79,10 @@ class PeopleTracker {
   void read_tracked(PeopleVision& vision, MonoTime now, const Reads& reads);
   void take(std::size_t person, const BodyRegion& region, const ReadBody& seen, bool is_new);
   void separate_duplicates(PeopleVision& vision, MonoTime now);
+  // As seen in this picture, or in the last one by a person who is left out of this; null: missing.
+  const SeenBody* present(std::size_t person) const;
   bool is_of_somebody(const SeenBody& body) const;
+  void forget(std::size_t person);
   void probe_missing(PeopleVision& vision, MonoTime now, const Reads& reads);
   std::optional<float> middle_of_colours(PeopleVision& vision, std::size_t person,
                                          const BodyRegion& region) const;
@@ -100,6 +105,7 @@ class PeopleTracker {
   std::array<LimbMotion, kMostDancers> limbs_;
   std::array<float, kMostDancers> lowest_px_{};  // of their feet: how near to the camera they are
   std::array<PersonInPicture, kMostDancers> found_;
+  std::array<bool, kMostDancers> is_left_out_{};  // of this picture, and tracked
   std::array<Candidate, kMostDancers> candidates_;
   // Of a pair a < b; positive: the two are taken for each other.
   std::array<std::array<float, kMostDancers>, kMostDancers> evidence_{};

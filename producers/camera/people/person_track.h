@@ -30,8 +30,6 @@ class PersonTrack {
 
   // The body that was read in a picture; steadies where it is looked for next.
   void update(const SeenBody& body, MonoTime now);
-  // Found somewhere: the next update() begins the motion anew, where it is far.
-  void begin(const BodyRegion& region) { next_ = region; }
   void lose();
   // Somebody else.
   void reset() { *this = {}; }

@@ -35,6 +35,8 @@ Result<void> run_capture(const CaptureOptions& options) {
   if (!options.also.empty() && (options.only_checks || !options.calibrate_file.empty()))
     return fail("--also is for dancing: --check and --calibrate look through one camera");
   if (options.only_checks) {
+    if (options.guests.size() > 1)
+      return fail("--check looks at one dancer; name one guest, or leave --guest out");
     DANCE_TRY(auto check, CaptureCheck::open(options));
     return check->run();
   }

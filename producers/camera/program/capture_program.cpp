@@ -126,7 +126,8 @@ Result<void> CaptureProgram::open_extras() {
   }
   const bool has_extras = extras_.hands || extras_.face;
   extras_.load = LoadSteps(has_extras ? LoadStep::kAll : LoadStep::kBodyOnly,
-                           dancers_.size() > 1 ? LoadStep::kDancersByTurns : LoadStep::kBodyOnly);
+                           dancers_.size() > 1 ? LoadStep::kDancersByTurns : LoadStep::kBodyOnly,
+                           dancers_.size());
   if (!has_extras) return {};
   for (const auto& dancer : chain_->dancers())
     dancer->enable_extras(std::make_unique<HandsAndFace>(

@@ -25,12 +25,12 @@ class SeveralDancers final : public LandmarkSource {
   explicit SeveralDancers(std::unique_ptr<PeopleEstimator> estimator)
       : estimator_(std::move(estimator)) {}
   std::span<const BodyLandmarks> see(const Frame& frame) override {
-    PeopleTracker::Reads reads{};
-    for (std::size_t i = 0; i < reads.size(); ++i) reads[i] = (picture_ + i) % turns_ == 0;
+    for (std::size_t i = 0; i < reads_.size(); ++i) reads_[i] = (picture_ + i) % turns_ == 0;
     ++picture_;
-    return estimator_->estimate(frame, reads);
+    return estimator_->estimate(frame, reads_);
   }
-  void restart() override { estimator_->reset(); }
+  bool is_left_out(std::size_t dancer) const override { return !reads_[dancer]; }
+  void restart() override { estimator_->lose_all(); }
   std::uint64_t searches() const override { return estimator_->tracker().counters().searches; }
   void set_turns(std::size_t turns) override {
     turns_ = std::clamp<std::size_t>(turns, 1, estimator_->tracker().people());
@@ -39,6 +39,7 @@ class SeveralDancers final : public LandmarkSource {
  private:
   std::unique_ptr<PeopleEstimator> estimator_;
   std::size_t picture_ = 0, turns_ = 1;
+  PeopleTracker::Reads reads_{};
 };
 
 }  // namespace

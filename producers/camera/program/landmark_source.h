@@ -21,12 +21,14 @@ class LandmarkSource {
   // Of each dancer, always in the same order; not smoothed, as the solver smooths too, and
   // smoothing twice would double the delay.
   virtual std::span<const BodyLandmarks> see(const Frame& frame) = 0;
-  // The camera was unplugged, or gives another size: the next picture is searched.
+  // The camera was unplugged: the next picture is searched.
   virtual void restart() = 0;
   // Of whole pictures.
   virtual std::uint64_t searches() const = 0;
   // With several dancers: each has only a turn of every n-th picture, where the load is too high.
   virtual void set_turns(std::size_t) {}
+  // Whether this dancer had no turn in the last picture: the landmarks are older then.
+  virtual bool is_left_out(std::size_t) const { return false; }
 };
 
 Result<std::unique_ptr<LandmarkSource>> open_landmark_source(const EstimatorOptions& options,

@@ -1,6 +1,7 @@
 // What BodyTracking learns of the dancer and the camera: bones, floor and placement.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "producers/camera/solver/body_tracking.h"
 #include "producers/camera/solver/joint/joint_views.h"
@@ -69,12 +70,14 @@ void BodyTracking::grow_to(const BodyLengths& lengths, MonoTime now) {
   // A larger body in the same picture is further away, and the floor with it, unless another dancer
   // says how far that is.
   const double by = static_cast<double>(standing_height_m(shape_.skeleton)) / was_m;
+  const CameraPlacement was = placement_;
   if (sets_scale()) {
     placement_.scale(by);
+    if (shared_) scale_ = shared_->scale *= by;
     tell_shared();
   }
   state.p_WH_m = placement_.to_W(hips_C * by);
-  contacts_.rebase([by](const Vector3d& p) { return Vector3d(p * by); });
+  contacts_.rebase([&](const Vector3d& p) { return placement_.to_W(was.to_C(p) * by); });
   motion_.rebase(state);
   write_pose(state, found);
   if (options_.keeps_above_floor) {
@@ -112,7 +115,8 @@ void BodyTracking::learn_camera(const Observation& seen) {
       const Vector3d sole_C = hips_C + R_CW * (model_.point(kLandmarkCount + i) - state.p_WH_m);
       if (is_of_scale()) {
         placement_.add_foot(sole_C);
-      } else if (const auto growth = placement_.growth_to_floor(sole_C)) {
+      } else if (const auto growth = placement_.growth_to_floor(sole_C);
+                 growth && placement_.is_known()) {
         growth_sum_ += std::clamp(*growth, 1.0 / kMostGrowth, kMostGrowth);
         ++growths_;
       }
@@ -132,17 +136,37 @@ void BodyTracking::rebase(const CameraPlacement& was, BodyState state) {
 }
 
 void BodyTracking::take_shared() {
-  if (!shared_) return;
-  if (!shared_->scaled_by || (options_.height_m && !shared_->is_told)) {
-    shared_->scaled_by = this;
-    shared_->is_told = options_.height_m.has_value();
-  }
-  if (shared_->version == shared_version_) return;
+  if (!shared_ || shared_->version == shared_version_) return;
   const CameraPlacement was = placement_;
   placement_ = shared_->placement;
   shared_version_ = shared_->version;
+  const double by = shared_->scale / std::exchange(scale_, shared_->scale);
   if (has_placement_ && is_tracking_) rebase(was, motion_.state());
   has_placement_ = true;
+  // The floor is further away, and so is who stands on it; unless they said how tall they are.
+  if (by == 1.0 || sets_scale() || options_.height_m || !is_tracking_) return;
+  grow_by(by, time_);
+}
+
+// The first who is seen sets the scale, until one is seen whose height was told.
+void BodyTracking::claim_scale() {
+  if (!shared_ || (shared_->scaled_by && (!options_.height_m || shared_->is_told))) return;
+  shared_->scaled_by = this;
+  shared_->is_told = options_.height_m.has_value();
+}
+
+void BodyTracking::release_scale() {
+  growth_sum_ = 0.0;
+  growths_ = 0;
+  if (!shared_ || shared_->scaled_by != this) return;
+  shared_->scaled_by = nullptr;
+  shared_->is_told = false;
+}
+
+void BodyTracking::grow_by(double by, MonoTime now) {
+  BodyLengths lengths = lengths_;
+  for (double& length : lengths) length *= by;
+  grow_to(lengths, now);
 }
 
 void BodyTracking::tell_shared() {

@@ -46,6 +46,7 @@ BodyTracking::BodyTracking(const SolverOptions& options, const Pinhole& camera,
 }
 
 void BodyTracking::set_shape(const BodyLengths& lengths) {
+  lengths_ = lengths;
   const std::uint32_t version = shape_.skeleton.version;
   shape_ = options_.height_m && proportions_.is_measured() ? shape_of(lengths, *options_.height_m)
                                                            : shape_of(lengths);
@@ -54,6 +55,7 @@ void BodyTracking::set_shape(const BodyLengths& lengths) {
 }
 
 void BodyTracking::reset() {
+  release_scale();
   proportions_.reset();
   set_shape(average_lengths(options_.height_m.value_or(kAverageHeight_m)));
   is_tracking_ = false;
@@ -204,7 +206,7 @@ bool BodyTracking::follow(const Observation& seen, MonoTime now, double seconds,
          fit_.picture_cost() < kClearlyBetter * cost)) {
       // The contacts of a wrong posture are wrong, and so may be the floor found from them.
       contacts_.clear();
-      if (usual_cost_ > kLeastDear) placement_.discard_feet();
+      if (usual_cost_ > kLeastDear && sets_scale()) placement_.discard_feet();
       blend_all(now, expected.state, refitted);
       motion_.begin(refitted);
       visibility_.follow(visibility, seconds);
@@ -300,6 +302,7 @@ bool BodyTracking::solve(const BodyLandmarks& landmarks, const std::optional<Dep
     carry(seconds, now);
     return write(motion_.state(), seen, now, seconds, out);
   }
+  if (seen.is_usable) claim_scale();
   // A dancer that was detected again a moment later is judged as one that was followed.
   const bool is_plausible =
       !is_tracking_ || !options_.limits_facing || has_plausible_facing(seen, now, seconds);

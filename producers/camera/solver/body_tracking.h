@@ -58,6 +58,9 @@ class BodyTracking {
   // What other dancers before this camera have found since; and what this one has.
   void take_shared();
   void tell_shared();
+  void claim_scale();
+  void release_scale();
+  void grow_by(double by, MonoTime now);
   // The state in W as it is since the placement was `was`.
   void rebase(const CameraPlacement& was, BodyState state);
   void grow_to(const BodyLengths& lengths, MonoTime now);
@@ -78,6 +81,8 @@ class BodyTracking {
   bool has_placement_ = false;
   std::shared_ptr<SharedPlacement> shared_;  // null: this dancer is alone
   std::uint64_t shared_version_ = 0;
+  double scale_ = 1.0;   // of the shared placement, as this dancer has it
+  BodyLengths lengths_;  // of the shape
   double growth_sum_ = 0.0;  // of a body that does not set the scale
   int growths_ = 0;
   std::size_t eyes_ = 0;          // cameras that saw the body in the last picture

@@ -20,6 +20,7 @@ struct SharedPlacement {
   // are as tall as they are when they stand on this floor.
   const void* scaled_by = nullptr;
   bool is_told = false;
+  double scale = 1.0;  // of all changes of the scale so far
 };
 
 }  // namespace dance

@@ -107,18 +107,65 @@ TEST(PeopleTracker, OneWhoIsLeftOutOfAPictureIsStillKnown) {
   }
 }
 
-TEST(PeopleTracker, WhoComesAfterLongIsSomebodyNewUnlessTheyLookTheSame) {
+TEST(PeopleTracker, ByTurnsNobodyBecomesTwo) {
+  // The second is far out of the picture: only the first is there.
+  auto dancers = crossing_couple(12.0);
+  for (Pose& pose : dancers[1].poses) pose.p_WH_m.x() = 30.0f;
+  SceneCamera camera;
+  camera.middle_m = Eigen::Vector3d(0.0, 0.0, 0.0);
+  CoupleScene scene(dancers, kCoupleHz, camera, {}, 1);
+  PeopleTracker tracker({});
+  for (std::size_t f = 0; f < 150; ++f) {
+    scene.show(f);
+    const bool is_first = f % 2 == 0;
+    const auto people = tracker.update(scene, scene.time(f), {is_first, !is_first, true, true});
+    if (f > 0 && people[is_first ? 0 : 1].is_found) {
+      EXPECT_TRUE(is_first) << f;
+    }
+  }
+  EXPECT_TRUE(tracker.track(0).was_ever_seen());
+  EXPECT_FALSE(tracker.track(1).was_ever_seen());
+}
+
+TEST(PeopleTracker, WhoComesBackAfterLongIsKnownByTheClothes) {
   CoupleScene scene(crossing_couple(12.0), kCoupleHz, {}, {}, 1);
   PeopleTracker tracker({});
   follow(scene, tracker, 0, 40);
-  // Twenty seconds later the same two stand where they stood, in the same clothes.
-  const Duration later = Duration::s(20);
-  scene.show(41);
-  auto people = tracker.update(scene, scene.time(41) + later);
+  // Twenty seconds later they have changed places, out of the picture.
+  const std::size_t other_sides = scene.frames() / 2;
+  scene.show(other_sides);
+  const auto people = tracker.update(scene, scene.time(other_sides) + Duration::s(20));
   ASSERT_TRUE(people[0].is_found && people[1].is_found);
-  for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_EQ(scene.nearer(41, people[i].body), i);
-  }
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_EQ(scene.nearer(other_sides, people[i].body), i) << "by place it would be the other";
+  EXPECT_GT(people[0].region.centre_x_px, people[1].region.centre_x_px);
+}
+
+TEST(PeopleTracker, OthersWhoComeAfterLongAreNumberedFromTheLeft) {
+  CoupleScene scene(crossing_couple(12.0), kCoupleHz, {}, {}, 1);
+  PeopleTracker tracker({});
+  follow(scene, tracker, 0, 40);
+  auto dancers = crossing_couple(12.0);
+  dancers[0].clothes.fill(PictureColour(0.5f, 0.3f, 0.3f));
+  dancers[1].clothes.fill(PictureColour(0.2f, 0.5f, 0.5f));
+  CoupleScene others(dancers, kCoupleHz, {}, {}, 2);
+  const std::size_t other_sides = others.frames() / 2;
+  others.show(other_sides);
+  const auto people = tracker.update(others, others.time(other_sides) + Duration::s(20));
+  ASSERT_TRUE(people[0].is_found && people[1].is_found);
+  EXPECT_LT(people[0].region.centre_x_px, people[1].region.centre_x_px);
+}
+
+TEST(PeopleTracker, ACameraThatWasUnpluggedShowsTheSame) {
+  CoupleScene scene(crossing_couple(12.0), kCoupleHz, {}, {}, 1);
+  PeopleTracker tracker({});
+  follow(scene, tracker, 0, 40);
+  tracker.lose_all();
+  const std::size_t other_sides = scene.frames() / 2;
+  scene.show(other_sides);
+  const auto people = tracker.update(scene, scene.time(other_sides));
+  ASSERT_TRUE(people[0].is_found && people[1].is_found);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(scene.nearer(other_sides, people[i].body), i);
 }
 
 TEST(PeopleTracker, WhatIsNoBodyHarmsNothing) {
