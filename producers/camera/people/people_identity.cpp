@@ -9,7 +9,7 @@ namespace {
 
 // Farther apart than this the colours of two people are their own.
 constexpr float kNear_sides = 0.06f, kApart_sides = 0.15f;
-constexpr float kMostEvidence = 4.0f, kLeastSum = -3.0f, kExchange = 4.0f;
+constexpr float kMostEvidence = 4.0f, kLeastSum = -1.0f, kExchange = 4.0f;
 constexpr float kDoubtful = 3.0f, kMostDoubt = 4.0f, kRefused = 8.0f;
 constexpr Duration kCompany = Duration::s(3);
 
