@@ -13,8 +13,8 @@ namespace {
 
 // What belongs to the pixels, without the rest: libpng takes memory for a chunk by the length that
 // the file tells, up to 2 GB (its bound of 8 MB is only a warning where pictures are read in this
-// way), and unpacks a thousand texts of 8 MB each. Empty where a chunk is longer than the bytes that
-// are left, or the last one is missing.
+// way), and unpacks a thousand texts of 8 MB each. Empty where a chunk is longer than the bytes
+// that are left, or the last one is missing.
 std::vector<std::uint8_t> chunks_of_pixels(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t kSignature = 8, kHead = 8, kSum = 4;
   constexpr std::string_view kKept = "IHDR PLTE tRNS gAMA sRGB cHRM sBIT IDAT IEND";

@@ -81,8 +81,8 @@ class BodyTracking {
   bool has_placement_ = false;
   std::shared_ptr<SharedPlacement> shared_;  // null: this dancer is alone
   std::uint64_t shared_version_ = 0;
-  double scale_ = 1.0;   // of the shared placement, as this dancer has it
-  BodyLengths lengths_;  // of the shape
+  double scale_ = 1.0;       // of the shared placement, as this dancer has it
+  BodyLengths lengths_;      // of the shape
   double growth_sum_ = 0.0;  // of a body that does not set the scale
   int growths_ = 0;
   std::size_t eyes_ = 0;          // cameras that saw the body in the last picture
