@@ -19,6 +19,9 @@ namespace {
 constexpr double kAverageHeight_m = 1.72;
 // Without a detection for so long the dancer is lost.
 constexpr Duration kGone = Duration::ms(500);
+// For so long it is known about how far away the dancer was.
+constexpr Duration kRemembered = Duration::s(3);
+constexpr double kDepthAtOnce_m = 0.2, kDepth_m_s = 0.6;
 constexpr int kFirstRounds = 10, kRounds = 4, kTrustingRounds = 2;
 // A fit that costs so much more than usual may be a wrong local minimum.
 constexpr double kDear = 4.0, kLeastDear = 150.0;
@@ -108,6 +111,16 @@ void BodyTracking::blend_all(MonoTime now, const BodyState& from, const BodyStat
   visibility_.blend_all(now, carried, found);
 }
 
+// What is left of a body beside another says little of how far it is, and nobody goes far meanwhile.
+void BodyTracking::keep_depth(MonoTime now, BodyState& state) {
+  const Vector3d was_C = placement_.to_C(motion_.state().p_WH_m),
+                 is_C = placement_.to_C(state.p_WH_m);
+  if (!(was_C.z() > 0.0) || !(is_C.z() > 0.0)) return;
+  const double reach_m = kDepthAtOnce_m + kDepth_m_s * (now - seen_at_).as_seconds();
+  const double depth_m = std::clamp(is_C.z(), was_C.z() - reach_m, was_C.z() + reach_m);
+  if (depth_m > 0.0) state.p_WH_m = placement_.to_W(is_C * (depth_m / is_C.z()));
+}
+
 bool BodyTracking::begin(const Observation& seen, MonoTime now) {
   contacts_.clear();
   for (SoleTouch& sole : problem_.soles) sole.stands = false;
@@ -136,6 +149,7 @@ bool BodyTracking::begin(const Observation& seen, MonoTime now) {
     has_placement_ = true;
     tell_shared();
   }
+  if (seen_at_.is_set() && now - seen_at_ < kRemembered) keep_depth(now, state);
   // The same dancer a moment later: the shown pose is blended.
   if (is_tracking_ && now - seen_at_ <= kGone) {
     blend_all(now, motion_.state(), state);
@@ -204,6 +218,7 @@ bool BodyTracking::follow(const Observation& seen, MonoTime now, double seconds,
     if (is_plausible && refit(refitted) &&
         (!is_fitted || std::exchange(is_turned_, false) ||
          fit_.picture_cost() < kClearlyBetter * cost)) {
+      keep_depth(now, refitted);
       // The contacts of a wrong posture are wrong, and so may be the floor found from them.
       contacts_.clear();
       if (usual_cost_ > kLeastDear && sets_scale()) placement_.discard_feet();

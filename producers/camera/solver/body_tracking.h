@@ -43,6 +43,7 @@ class BodyTracking {
 
  private:
   bool begin(const Observation& seen, MonoTime now);
+  void keep_depth(MonoTime now, BodyState& state);
   // False where the picture is refused: no body turns as the network has it.
   bool has_plausible_facing(Observation& seen, MonoTime now, double seconds);
   bool follow(const Observation& seen, MonoTime now, double seconds, bool is_plausible);

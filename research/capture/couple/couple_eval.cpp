@@ -188,7 +188,11 @@ class Evaluation {
         if (is_shown[p] && f >= wishes_.first_frame + kWarmUp)
           wrists[person].judge(truth, person, solvers[p].skeleton(), poses[p]);
       }
-      if (log) write_log(log, f, truth, bodies, estimator->tracker().counters());
+      if (!log) continue;
+      write_log(log, f, truth, bodies, estimator->tracker().counters());
+      for (std::size_t p = 0; p < 2; ++p)
+        if (is_shown[p]) write_place(log, truth, person_of(p), solvers[p].skeleton(), poses[p]);
+      log << '\n';
     }
     score_.people = identities.figures();
     for (const WristJudge& judge : wrists) judge.add_to(score_.together);
@@ -212,8 +216,22 @@ class Evaluation {
       else
         log << fmt::format("  {}: -", person);
     }
-    log << fmt::format("  s {} d {} x {} l {}\n", counters.searches, counters.duplicates,
+    log << fmt::format("  s {} d {} x {} l {}", counters.searches, counters.duplicates,
                        counters.exchanged, counters.limbs_hidden);
+  }
+
+  // How far off the shown hips are, in metres.
+  static void write_place(std::ofstream& log, const CoupleTruth& truth, std::size_t person,
+                          const Skeleton& skeleton, const Pose& pose) {
+    BodyFrames frames;
+    forward_kinematics(skeleton, pose, frames);
+    const auto shown = [&](std::size_t j) {
+      return Vector3d(frames.position(kJudgedBones[j]).cast<double>());
+    };
+    const auto& is = truth.joint_W_m[person];
+    const Vector3d off = 0.5 * (shown(kHips[0]) + shown(kHips[1]) - is[kHips[0]] - is[kHips[1]]);
+    log << fmt::format("  {} at {:.2f} {:.2f} {:.2f} tall {:.2f}", person, off.x(), off.y(),
+                       off.z(), standing_height_m(skeleton));
   }
 
   // As two programs would do it, each told where its dancer stands.
