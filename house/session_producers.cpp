@@ -56,6 +56,8 @@ void read_camera(TomlReader& reader, const std::filesystem::path& folder, HouseC
   camera.mirror = reader.bool_or("mirror", false);
   camera.hands = reader.bool_or("hands", true);
   camera.face = reader.bool_or("face", false);
+  if (!camera.partners.empty() && !camera.also.empty())
+    reader.complain("also", "sees one dancer; leave out partners");
   reader.finish();
   session.cameras.push_back(camera);
 }

@@ -40,8 +40,11 @@ void VmcConsumer::on_pose(const GuestId& guest, const Pose& pose, MonoTime now) 
   if (is_first) writer_.write_model(guest.c_str());
   is_silent_ = false;
   if (now - hands_heard_ > kHandsKept) has_hands_ = false;
-  if (now - face_heard_ > kFaceKept) has_face_ = false;
+  // Receivers keep an expression until another comes: one at rest is the last.
+  const bool is_last_face = has_face_ && now - face_heard_ > kFaceKept;
+  if (is_last_face) face_ = Face();
   writer_.write_pose(pose, has_hands_ ? &hands_ : nullptr, time_s_, has_face_ ? &face_ : nullptr);
+  if (is_last_face) has_face_ = false;
   ++frames_;
 }
 

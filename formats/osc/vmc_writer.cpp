@@ -65,6 +65,8 @@ void VmcWriter::add_expressions(const Face& face) {
   for (std::size_t i = 0; i < kExpressionCount; ++i) add(kExpressionNames[i], face.weight[i]);
   using E = Expression;
   const bool is_vrm0 = dialect_ == VmcDialect::kVrm0;
+  // What was said before the face was seen.
+  add(is_vrm0 ? "Neutral" : "neutral", 0.0f);
   const float open = face[E::kJawOpen], round = face[E::kMouthFunnel];
   const float wide = 0.5f * (face[E::kMouthStretchLeft] + face[E::kMouthStretchRight]);
   const float left = face[E::kEyeBlinkLeft], right = face[E::kEyeBlinkRight];

@@ -69,15 +69,36 @@ void HandsAndFace::publish_face(const Picture& picture) {
   const bool is_any = expressions_.write(picture.frame.capture_time, face);
   if (!is_any && has_said_rest_) return;
   has_said_rest_ = !is_any;
-  if (expressions_.is_seen()) face.R_PB = Eigen::Quaternionf(picture.R_WC) * expressions_.R_CHead();
+  const bool is_seen = (face.presence & kFaceSeen) != 0;
+  if (is_seen) face.R_PB = Eigen::Quaternionf(picture.R_WC) * expressions_.R_CHead();
   if (options_.is_mirrored) mirror(face);
-  face.R_PB = expressions_.is_seen()
+  face.R_PB = is_seen
                   ? (rotation_in_W(picture.pose, Bone::kNeck).conjugate() * face.R_PB).normalized()
                   : picture.pose.R_PB[index_of(Bone::kHead)];
   face.sequence = picture.pose.sequence;
   face.clock_id = picture.pose.clock_id;
   face.capture_time = picture.pose.capture_time;
   picture.sink.capture_face(picture.guest, face);
+}
+
+void HandsAndFace::rest(MonoTime now, const Pose& last, const GuestId& guest, CaptureSink& sink) {
+  if (!has_said_relaxed_) {
+    Hands hands;
+    hands.sequence = last.sequence;
+    hands.clock_id = last.clock_id;
+    hands.capture_time = now;
+    sink.capture(guest, hands);
+    has_said_relaxed_ = true;
+  }
+  if (!has_said_rest_) {
+    Face face;
+    face.R_PB = last.R_PB[index_of(Bone::kHead)];
+    face.sequence = last.sequence;
+    face.clock_id = last.clock_id;
+    face.capture_time = now;
+    sink.capture_face(guest, face);
+    has_said_rest_ = true;
+  }
 }
 
 HandsAndFace::Due HandsAndFace::due(LoadStep step, std::uint64_t turn) {

@@ -50,6 +50,9 @@ class HandsAndFace {
   void steady_wrists(Pose& pose);
   // Looks at what is due in this picture, and publishes it.
   void look(const Picture& picture);
+  // The dancer is not there any more: once, after something was published, that hands and face are
+  // at rest. `last` is the last pose.
+  void rest(MonoTime now, const Pose& last, const GuestId& guest, CaptureSink& sink);
   // Another dancer, or another camera.
   void reset();
 

@@ -17,7 +17,8 @@ constexpr OneEuroSetting kGaze{1.0, 1.0, 1.0};
 // At which ARKit's looks are full.
 constexpr float kFullLook_rad = 0.6f;
 constexpr double kFaceFirst_hz = 30.0;
-constexpr Duration kFaceKept = Duration::ms(300);
+// Longer than a slow machine takes until it looks again.
+constexpr Duration kFaceKept = Duration::ms(500);
 constexpr Duration kFaceFades = Duration::ms(700);
 // Further aside the points of the far half are guesses.
 constexpr float kLeastAhead = 0.7f;
@@ -175,12 +176,14 @@ void FaceSolver::see_gaze(const std::optional<Eigen::Vector2f>& gaze_rad) {
 }
 
 bool FaceSolver::write(MonoTime now, Face& out) const {
-  out.presence = is_seen_ ? kFaceSeen : 0;
+  out.presence = 0;
   if (!has_seen_) return false;
+  // It may not have been looked for since.
+  if (is_seen_ && now - seen_ <= kFaceKept) out.presence = kFaceSeen;
   const double past = (now - seen_ - kFaceKept).as_seconds() / kFaceFades.as_seconds();
   const auto share = static_cast<float>(1.0 - std::clamp(past, 0.0, 1.0));
   for (std::size_t i = 0; i < kExpressionCount; ++i) out.weight[i] = share * weight_[i];
-  if (!has_gaze_) return share > 0.0f;
+  if (!has_gaze_ || out.presence == 0) return share > 0.0f;
   out.presence |= kGazeSeen;
   out.gaze_rad = {gaze_rad_.x(), gaze_rad_.y()};
   const auto look = [&](Expression left_eye, Expression right_eye, float angle) {

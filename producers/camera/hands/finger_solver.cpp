@@ -30,7 +30,8 @@ constexpr OneEuroSetting kAngles{1.5, 0.25, 1.0};
 constexpr float kLeastTrusted = 0.15f;
 constexpr double kFirst_hz = 30.0;
 
-constexpr Duration kKept = Duration::ms(300);
+// Longer than a slow machine takes until it looks again.
+constexpr Duration kKept = Duration::ms(500);
 constexpr Duration kRelaxed = Duration::ms(1000);
 
 const Vector3f kY = Vector3f::UnitY(), kZ = Vector3f::UnitZ();
@@ -207,7 +208,9 @@ bool FingerSolver::write(MonoTime now, Hands& out) const {
     write_fingers(scaled(side.angles, share), which, out);
     is_any = is_any || share > 0.0f;
     constexpr std::uint32_t kBits = (1u << kFingerBoneCount / 2) - 1;
-    if (side.is_seen) out.presence |= kBits << (which == HandSide::kLeft ? 0 : 15);
+    // It may not have been looked for since.
+    const bool is_seen = side.is_seen && side.seen && now - *side.seen <= kKept;
+    if (is_seen) out.presence |= kBits << (which == HandSide::kLeft ? 0 : 15);
   }
   return is_any;
 }

@@ -18,7 +18,7 @@ constexpr float kMostApart_rad = radians(75.0f);
 constexpr float kMostTwist_rad = radians(80.0f);
 constexpr double kSettles_s = 0.5;
 constexpr float kLeastTrust = 0.6f;
-constexpr Duration kPalmKept = Duration::ms(150);
+constexpr Duration kPalmKept = Duration::ms(450);
 constexpr Duration kPalmFades = Duration::ms(400);
 
 float twist_about_x(const Quaternionf& q) {

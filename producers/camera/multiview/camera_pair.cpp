@@ -184,7 +184,9 @@ void CameraPair::check_moments() {
     if (spread < 0.0) continue;
     recent_spread_ += (spread - recent_spread_) / kRecentOver;
     usual_spread_ += (std::min(spread, 1.5 * usual_spread_) - usual_spread_) / kUsualOver;
-    if (recent_spread_ > std::max(kMovedSpread, kMovedTimes * usual_spread_)) return give_up();
+    // A placement that would not be taken now is not kept either.
+    const double most = std::min(kMostSpread, std::max(kMovedSpread, kMovedTimes * usual_spread_));
+    if (recent_spread_ > most) return give_up();
   }
 }
 

@@ -222,7 +222,10 @@ bool CaptureProgram::has_usual_size(const cv::Mat& picture) {
              picture.rows);
   make_solvers();
   chain_->restart();
-  if (others_) others_->set_first(input_->camera());
+  if (others_) {
+    others_->set_first(input_->camera());
+    others_->reset_body();
+  }
   return true;
 }
 

@@ -39,6 +39,8 @@ void DancerCapture::publish(const Frame& frame, const BodyLandmarks& seen, const
   if (others_) views = others_->see_first(seen, *solver_);
   Pose pose;
   if (!solver_->solve(seen, depth, pose, views)) return;
+  // By another camera too.
+  last_seen_ = frame.capture_time;
   pose.sequence = next_sequence_++;
   pose.clock_id = this_clock_id();
   pose.capture_time = frame.capture_time;
@@ -58,7 +60,12 @@ void DancerCapture::publish(const Frame& frame, const BodyLandmarks& seen, const
 }
 
 void DancerCapture::look_closer(const Frame& frame, const BodyLandmarks& seen) {
-  if (!extras_ || !has_published_) return;
+  if (!extras_) return;
+  if (!has_published_) {
+    // Nobody is left with the last expression.
+    if (stats_.published > 0) extras_->rest(frame.capture_time, pose_, guest_, sink_);
+    return;
+  }
   const Eigen::Matrix3f R_WC = solver_->camera_stand().R_WC.cast<float>();
   extras_->look({frame, seen, pose_, R_WC, guest_, sink_});
 }

@@ -47,17 +47,15 @@ BodyLandmarks received(const SentBody& body) {
 }
 
 // The n-th value of a list that may be shorter: the last one then.
-template <class T>
-T nth_of(const std::vector<T>& list, std::size_t n, const T& otherwise) {
-  return list.empty() ? otherwise : list[std::min(n, list.size() - 1)];
-}
-
 }  // namespace
 
 Result<std::unique_ptr<OtherCameras>> OtherCameras::open(const CaptureOptions& options,
                                                          const Pinhole& first) {
   if (options.also.size() > kMostOtherViews)
     return fail(fmt::format("--also: {} cameras beside the first are the most", kMostOtherViews));
+  if (options.also_calibration.size() > options.also.size() ||
+      options.also_fov_deg.size() > options.also.size())
+    return fail("--also-calibration and --also-fov: one for each --also, in their order");
   std::unique_ptr<OtherCameras> others(new OtherCameras(first));
   if (!options.heights_m.empty() && options.heights_m.front() > 0.0)
     others->told_height_m_ = options.heights_m.front();
@@ -73,8 +71,9 @@ Result<std::unique_ptr<OtherCameras>> OtherCameras::open(const CaptureOptions& o
     DANCE_TRY(camera->source, open_frame_source(options.also[i], wished));
     const FrameFormat& format = camera->source->format();
     camera->name = camera->source->name();
-    Pinhole lens = assumed_pinhole(format.width_px, format.height_px,
-                                   nth_of(options.also_fov_deg, i, options.fov_deg));
+    Pinhole lens = assumed_pinhole(
+        format.width_px, format.height_px,
+        i < options.also_fov_deg.size() ? options.also_fov_deg[i] : options.fov_deg);
     if (i < options.also_calibration.size()) {
       DANCE_TRY(const Calibration calibration,
                 load_calibration(options.also_calibration[i], format.width_px, format.height_px));
@@ -101,7 +100,10 @@ void OtherCameras::run(Camera& camera) {
   Frame frame;
   while (!camera.stop) {
     const FrameState state = camera.source->next(kPictureTimeout, frame);
-    if (state == FrameState::kOver) return;
+    if (state == FrameState::kOver) {
+      camera.is_over = true;
+      return;
+    }
     if (state == FrameState::kGone) camera.is_gone = true;
     if (state == FrameState::kBack) {
       camera.is_gone = false;
@@ -139,6 +141,8 @@ std::string OtherCameras::news() {
     if (!camera.is_gone) camera.has_told_gone = false;
     if (once(camera.has_told_gone, camera.is_gone))
       return camera.name + " is gone; plug it in again, it is looked for";
+    if (once(camera.has_told_over, camera.is_over))
+      return camera.name + " is over; the dancer is seen by the other cameras";
     if (once(camera.has_told_size, camera.has_other_size))
       return camera.name + " gives pictures of another size; start dance capture again";
     if (pair.moves() != camera.told_moves) {

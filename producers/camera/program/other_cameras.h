@@ -72,10 +72,11 @@ class OtherCameras {
     std::unique_ptr<PoseEstimator> estimator;
     SpscRing<SentBody, 64> bodies;
     std::atomic<std::uint64_t> pictures{0}, seen{0};
-    std::atomic<bool> is_gone{false}, has_other_size{false}, stop{false};
+    std::atomic<bool> is_gone{false}, is_over{false}, has_other_size{false}, stop{false};
     std::thread thread;
     // Of what news() told.
-    bool has_told_search = false, has_told_gone = false, has_told_size = false;
+    bool has_told_search = false, has_told_gone = false, has_told_size = false,
+         has_told_over = false;
     bool was_placed = false;
     int told_moves = 0;
   };
@@ -87,7 +88,7 @@ class OtherCameras {
   std::vector<std::unique_ptr<Camera>> cameras_;
 };
 
-// "2.1 m to the left, 0.4 m behind, turned 55 degrees, its pictures 12 ms late".
+// "2.1 m to the left, 0.4 m further back, turned 55 degrees, its pictures 12 ms late".
 std::string text_of(const PairPlacement& placement);
 
 }  // namespace dance

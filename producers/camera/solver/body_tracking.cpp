@@ -271,7 +271,8 @@ bool BodyTracking::write(const BodyState& state, const Observation& seen, MonoTi
     hands_.apply(shape_.skeleton, hand_measurement(problem_, pose.p_WH_m.cast<double>()), seconds,
                  pose);
   pose.presence = visibility_.presence();
-  pose.confidence = static_cast<float>(std::clamp(seen.visible, 0.0, 1.0));
+  const double visible = problem_.other_count > 0 ? merged(problem_).visible : seen.visible;
+  pose.confidence = static_cast<float>(std::clamp(visible, 0.0, 1.0));
   pose.capture_time = now;
   if (options_.is_mirrored) mirror(pose);
   normalize(pose);

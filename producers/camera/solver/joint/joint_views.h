@@ -16,7 +16,7 @@
 
 namespace dance {
 
-constexpr double kOldestView_s = 0.2;
+constexpr double kOldestView_s = 0.35;
 
 // The views that a picture may use; sets others and other_count of the problem.
 void take_views(OtherViews views, FitProblem& problem);
