@@ -111,7 +111,8 @@ void BodyTracking::blend_all(MonoTime now, const BodyState& from, const BodyStat
   visibility_.blend_all(now, carried, found);
 }
 
-// What is left of a body beside another says little of how far it is, and nobody goes far meanwhile.
+// What is left of a body beside another says little of how far it is, and nobody goes far
+// meanwhile.
 void BodyTracking::keep_depth(MonoTime now, BodyState& state) {
   const Vector3d was_C = placement_.to_C(motion_.state().p_WH_m),
                  is_C = placement_.to_C(state.p_WH_m);
