@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/pose/face_shapes.h"
 #include "formats/osc/average_hand.h"
 #include "formats/osc/unity_axes.h"
 
@@ -63,23 +64,18 @@ void VmcWriter::add_expressions(const Face& face) {
     bundles_.add("/VMC/Ext/Blend/Val", {name, value});
   };
   for (std::size_t i = 0; i < kExpressionCount; ++i) add(kExpressionNames[i], face.weight[i]);
-  using E = Expression;
   const bool is_vrm0 = dialect_ == VmcDialect::kVrm0;
   // What was said before the face was seen.
   add(is_vrm0 ? "Neutral" : "neutral", 0.0f);
-  const float open = face[E::kJawOpen], round = face[E::kMouthFunnel];
-  const float wide = 0.5f * (face[E::kMouthStretchLeft] + face[E::kMouthStretchRight]);
-  const float left = face[E::kEyeBlinkLeft], right = face[E::kEyeBlinkRight];
-  add(is_vrm0 ? "A" : "aa", open * (1.0f - round));
-  add(is_vrm0 ? "I" : "ih", wide * (1.0f - open));
-  add(is_vrm0 ? "U" : "ou", face[E::kMouthPucker]);
-  add(is_vrm0 ? "E" : "ee", 0.5f * wide * open);
-  add(is_vrm0 ? "O" : "oh", round);
-  // Of both eyes, and what one does beyond that.
-  const float both = std::min(left, right);
-  add(is_vrm0 ? "Blink" : "blink", both);
-  add(is_vrm0 ? "Blink_L" : "blinkLeft", left - both);
-  add(is_vrm0 ? "Blink_R" : "blinkRight", right - both);
+  const VrmFace vrm = vrm_face(face);
+  add(is_vrm0 ? "A" : "aa", vrm.aa);
+  add(is_vrm0 ? "I" : "ih", vrm.ih);
+  add(is_vrm0 ? "U" : "ou", vrm.ou);
+  add(is_vrm0 ? "E" : "ee", vrm.ee);
+  add(is_vrm0 ? "O" : "oh", vrm.oh);
+  add(is_vrm0 ? "Blink" : "blink", vrm.blink);
+  add(is_vrm0 ? "Blink_L" : "blinkLeft", vrm.blink_left);
+  add(is_vrm0 ? "Blink_R" : "blinkRight", vrm.blink_right);
 }
 
 void VmcWriter::write_pose(const Pose& pose, const Hands* hands, float time_s, const Face* face) {

@@ -41,6 +41,8 @@ bool is_shown(const Channel& channel) {
     case Signal::kHands:
     case Signal::kSkeleton:
       return channel.where() == Where::kCapture || channel.where() == Where::kStage;
+    case Signal::kFace:
+      return channel.where() == Where::kCapture || channel.where() == Where::kGuest;
     case Signal::kGuest:
     case Signal::kBeat:
     case Signal::kAvatar:

@@ -152,7 +152,9 @@ TEST_F(CapturePrograms, SeeTwoDancersBeforeOneCamera) {
       start_before_shim("modes=YUYV:640x360@30 hz=30 file=" + raw_film(60, true),
                         {"42", "--guest", "ann,ben", "--height", "1.6,1.8", "--model", "lite",
                          "--hands", "off", "--bus", kBus, "--json"});
-  ASSERT_TRUE(wait_for([&] { return ear.has_more_than(40) && ear.guests.size() == 2; })) << talk();
+  ASSERT_TRUE(wait_for([&] { return ear.has_more_than(0) && ear.guests.size() == 2; })) << talk();
+  const std::size_t before = ear.poses.size();
+  ASSERT_TRUE(wait_for([&] { return ear.has_more_than(before + 50); })) << talk();
   capture.ask_to_stop();
   ASSERT_TRUE(wait_for([&] { return capture.has_ended(); }));
   EXPECT_TRUE(capture.ended_well()) << capture.exit_text() << talk();

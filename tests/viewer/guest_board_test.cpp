@@ -295,6 +295,26 @@ TEST(StageRoster, GivesHandsOnlyWhileTheyAreSent) {
   EXPECT_FALSE(scene_of(roster, kStart + Duration::s(2)).guests.at(0).hands);
 }
 
+TEST(StageRoster, GivesFacesOnlyWhileTheyAreSeen) {
+  GuestBoard board(kOurClock, false);
+  StageRoster roster(board);
+  Face face;
+  face.presence = kFaceSeen;
+  face[Expression::kJawOpen] = 0.5f;
+  board.on_face(guest("bob"), face, kStart);
+  EXPECT_TRUE(scene_of(roster, kStart).guests.empty()) << "a face alone is nobody";
+  board.on_pose(Where::kStage, guest("bob"), pose_at(0.0f), kStart);
+  const auto shown = scene_of(roster, kStart).guests.at(0).face;
+  ASSERT_TRUE(shown.has_value());
+  EXPECT_EQ((*shown)[Expression::kJawOpen], 0.5f);
+  board.on_pose(Where::kStage, guest("bob"), pose_at(0.0f), kStart + Duration::s(2));
+  EXPECT_FALSE(scene_of(roster, kStart + Duration::s(2)).guests.at(0).face) << "long ago";
+  face.presence = 0;
+  board.on_face(guest("bob"), face, kStart + Duration::s(2));
+  board.on_pose(Where::kStage, guest("bob"), pose_at(0.0f), kStart + Duration::ms(2010));
+  EXPECT_FALSE(scene_of(roster, kStart + Duration::ms(2010)).guests.at(0).face) << "not seen";
+}
+
 TEST(ArrivalMeter, TakesASenderThatBeginsAnewForNoLoss) {
   ArrivalMeter meter;
   MonoTime now = kStart;

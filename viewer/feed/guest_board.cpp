@@ -191,6 +191,14 @@ void GuestBoard::on_hands(Where where, const GuestId& guest, const Hands& hands,
   slot->news.hands_heard = now;
 }
 
+// Of the capture or from another house, never from the stage: it is shown with whatever pose is.
+void GuestBoard::on_face(const GuestId& guest, const Face& face, MonoTime now) {
+  Slot* slot = slot_of(guest, now);
+  if (slot == nullptr) return;
+  slot->news.face = face;
+  slot->news.face_heard = now;
+}
+
 void GuestBoard::on_skeleton(const GuestId& guest, const Skeleton& skeleton, MonoTime now) {
   if (Slot* slot = slot_of(guest, now)) slot->news.skeleton = skeleton;
 }

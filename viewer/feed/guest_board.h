@@ -44,6 +44,8 @@ struct GuestNews {
   Skeleton skeleton = average_skeleton();
   Hands hands;
   MonoTime hands_heard;  // not set: none
+  Face face;
+  MonoTime face_heard;  // not set: none
   AvatarWish wish;
   GuestFigures figures;
   int voice_dbfs = kSilence_dbfs;
@@ -61,6 +63,7 @@ class GuestBoard {
   void show_guest_channel() { shows_guest_channel_ = true; }
 
   void on_pose(Where where, const GuestId& guest, const Pose& pose, MonoTime now);
+  void on_face(const GuestId& guest, const Face& face, MonoTime now);
   void on_hands(Where where, const GuestId& guest, const Hands& hands, MonoTime now);
   void on_skeleton(const GuestId& guest, const Skeleton& skeleton, MonoTime now);
   void on_avatar(const GuestId& guest, const Avatar& avatar, MonoTime now);

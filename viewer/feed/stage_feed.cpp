@@ -75,6 +75,13 @@ StageFeed::~StageFeed() {
 }
 
 void StageFeed::subscribe(const FeedOptions& options) {
+  for (const Where where : {Where::kCapture, Where::kGuest})
+    bus_->subscribe<Face>(
+        where,
+        [this](const Channel& channel, const Face& face, MonoTime now) {
+          board_.on_face(channel.guest(), face, now);
+        },
+        Delivery::kNewest);
   for (const Where where : {Where::kCapture, Where::kGuest, Where::kStage}) {
     if (!is_for_board(options, where)) continue;
     // Every pose is taken, so that rates and losses are right; the board's slots keep the newest.

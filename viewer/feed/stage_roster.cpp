@@ -7,6 +7,7 @@ namespace {
 constexpr Duration kSilenceBeforeFading = Duration::s(3);
 constexpr Duration kFade = Duration::ms(800);
 constexpr Duration kHandsHold = Duration::s(1);
+constexpr Duration kFaceHolds = Duration::s(1);
 
 float opacity_after(Duration silence) {
   if (silence <= kSilenceBeforeFading) return 1.0f;
@@ -65,6 +66,9 @@ void StageRoster::update(MonoTime now, SceneState& scene) {
     guest.pose = known.pose;
     if (known.hands_heard.is_set() && known.heard - known.hands_heard < kHandsHold)
       guest.hands = known.hands;
+    if (known.face_heard.is_set() && known.face.presence != 0 && now >= known.face_heard &&
+        now - known.face_heard < kFaceHolds)
+      guest.face = known.face;
     guest.wish = known.wish;
     guest.opacity = opacity;
     guest.figures = known.figures;

@@ -180,6 +180,11 @@ void FigurePoser::show(const SceneGuest& guest, const SceneState& scene, Rig& ri
         rig.drivers[follower.driver].place_W_m + linear * follower.place_m;
   }
   figure.morph_weights.assign(rig.model->morphs.size(), 0.0f);
+  // A face that is seen moves its own lids.
+  if (guest.face && !shape.face.is_empty()) {
+    shape.face.add(*guest.face, figure.morph_weights);
+    return;
+  }
   // Eyes are open in a picture that stands alone.
   const float blink = shape.blink >= 0 && rig.goes_on ? blink_at(guest.id, scene.time) : 0.0f;
   if (blink > 0.0f)

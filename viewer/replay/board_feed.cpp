@@ -27,6 +27,9 @@ void BoardFeed::on_message(const Channel& channel, std::span<const std::uint8_t>
     case Signal::kHands:
       if (Hands hands; read(hands)) board_.on_hands(where, channel.guest(), hands, now);
       return;
+    case Signal::kFace:
+      if (Face face; read(face)) board_.on_face(channel.guest(), face, now);
+      return;
     case Signal::kSkeleton:
       if (TimedSkeleton timed; read(timed))
         board_.on_skeleton(channel.guest(), timed.skeleton, now);

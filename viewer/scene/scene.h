@@ -16,6 +16,7 @@
 
 #include "core/base/guest_id.h"
 #include "core/base/time.h"
+#include "core/pose/face.h"
 #include "core/pose/kinematics.h"
 #include "core/pose/pose.h"
 #include "core/pose/skeleton.h"
@@ -71,6 +72,7 @@ struct SceneGuest {
   Skeleton skeleton = average_skeleton();
   Pose pose;
   std::optional<Hands> hands;
+  std::optional<Face> face = {};
   AvatarWish wish;
   std::shared_ptr<const AvatarModel> avatar;  // null: none is ready yet
   FigureSize figure_size = FigureSize::kDancers;

@@ -209,6 +209,7 @@ class ShapeMaker {
       shape_.hulls[side] = mesh.hull(side);
       shape_.hand_ends_M_m[side] = mesh.hand_end(side);
     }
+    shape_.face = FaceMap(model_);
     for (std::size_t e = 0; e < model_.expressions.size(); ++e)
       if (model_.expressions[e].name == "blink") shape_.blink = static_cast<int>(e);
   }

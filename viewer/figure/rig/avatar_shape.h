@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "formats/avatar/avatar_model.h"
+#include "viewer/figure/rig/face_map.h"
 
 namespace dance {
 
@@ -92,6 +93,7 @@ struct AvatarShape {
   float height_m = 1.7f;
   float crown_m = 0.2f;  // from the head's joint up to the highest of its mesh, at rest
   int blink = -1;        // AvatarExpression
+  FaceMap face;
 
   const Eigen::Vector3f& at(Bone bone) const { return drivers_M_m[index_of(bone)]; }
   bool has(Bone bone) const { return has_bone[index_of(bone)]; }
