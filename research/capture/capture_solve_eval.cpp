@@ -14,16 +14,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr std::array<Landmark, kJudgedCount> kJudged{
-    Landmark::kLeftShoulder, Landmark::kRightShoulder, Landmark::kLeftElbow, Landmark::kRightElbow,
-    Landmark::kLeftWrist,    Landmark::kRightWrist,    Landmark::kLeftHip,   Landmark::kRightHip,
-    Landmark::kLeftKnee,     Landmark::kRightKnee,     Landmark::kLeftAnkle, Landmark::kRightAnkle};
-constexpr std::array<Bone, kJudgedCount> kJudgedBones{
-    Bone::kLeftUpperArm, Bone::kRightUpperArm, Bone::kLeftLowerArm, Bone::kRightLowerArm,
-    Bone::kLeftHand,     Bone::kRightHand,     Bone::kLeftUpperLeg, Bone::kRightUpperLeg,
-    Bone::kLeftLowerLeg, Bone::kRightLowerLeg, Bone::kLeftFoot,     Bone::kRightFoot};
-constexpr std::size_t kLeftHipAt = 6;
-
 constexpr double kStandsBelow = 0.1, kStandsUnder_m = 0.05;
 // A foot that has come to rest so long ago is planted.
 constexpr double kPlanted_s = 0.1;
@@ -61,7 +51,7 @@ JudgedTrack truth_of(const CaptureScene& scene) {
   for (const SceneFrame& seen : scene.frames) {
     JudgedTrack::Frame frame;
     for (std::size_t i = 0; i < kJudgedCount; ++i)
-      frame.joint[i] = seen.truth_W_m[index_of(kJudged[i])];
+      frame.joint[i] = seen.truth_W_m[index_of(kLimbJoints[i].landmark)];
     frame.foot = seen.ball_W_m;
     frame.wrong_knees = wrong_knees(frame, {seen.truth_W_m[index_of(Landmark::kLeftFootIndex)],
                                             seen.truth_W_m[index_of(Landmark::kRightFootIndex)]});
@@ -82,7 +72,7 @@ JudgedTrack baseline_of(const CaptureScene& scene) {
     place_on_rays(seen, world, place);
     JudgedTrack::Frame frame;
     const auto at = [&](Landmark l) { return scene.to_W(place + world[index_of(l)]); };
-    for (std::size_t i = 0; i < kJudgedCount; ++i) frame.joint[i] = at(kJudged[i]);
+    for (std::size_t i = 0; i < kJudgedCount; ++i) frame.joint[i] = at(kLimbJoints[i].landmark);
     frame.foot = {at(Landmark::kLeftFootIndex), at(Landmark::kRightFootIndex)};
     frame.wrong_knees = wrong_knees(frame, frame.foot);
     frame.lowest_m = std::min({frame.foot[0].y(), frame.foot[1].y(), at(Landmark::kLeftHeel).y(),
@@ -119,8 +109,7 @@ JudgedTrack solved_of(const CaptureScene& scene, const SolverOptions& options, S
     score.refused += is_there ? 0 : 1;
     forward_kinematics(solver.skeleton(), pose, frames);
     JudgedTrack::Frame frame;
-    for (std::size_t i = 0; i < kJudgedCount; ++i)
-      frame.joint[i] = frames.position(kJudgedBones[i]).cast<double>();
+    frame.joint = limb_places(frames);
     frame.foot = {frames.position(Bone::kLeftToes).cast<double>(),
                   frames.position(Bone::kRightToes).cast<double>()};
     frame.wrong_knees = wrong_knees(frame, frame.foot);
@@ -143,12 +132,8 @@ JudgedTrack solved_of(const CaptureScene& scene, const SolverOptions& options, S
   return track;
 }
 
-Vector3d hips_of(const JudgedTrack::Frame& frame) {
-  return 0.5 * (frame.joint[kLeftHipAt] + frame.joint[kLeftHipAt + 1]);
-}
-
 double relative_error(const JudgedTrack::Frame& a, const JudgedTrack::Frame& b) {
-  const Vector3d off = hips_of(a) - hips_of(b);
+  const Vector3d off = middle_of_hips(a.joint) - middle_of_hips(b.joint);
   double sum = 0.0;
   for (std::size_t i = 0; i < kJudgedCount; ++i) sum += (a.joint[i] - b.joint[i] - off).norm();
   return sum / kJudgedCount;

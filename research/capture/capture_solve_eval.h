@@ -14,16 +14,16 @@
 
 #include "producers/camera/solver/body_solver.h"
 #include "testing/camera/capture_scene.h"
+#include "testing/camera/limb_joints.h"
 
 namespace dance {
 
-// Shoulders, elbows, wrists, hips, knees, ankles.
-constexpr std::size_t kJudgedCount = 12;
+constexpr std::size_t kJudgedCount = kLimbJoints.size();
 
 // A dance as somebody has it, frame by frame.
 struct JudgedTrack {
   struct Frame {
-    std::array<Eigen::Vector3d, kJudgedCount> joint;
+    LimbPlaces joint;
     std::array<Eigen::Vector3d, 2> foot;  // what should not slide
     double lowest_m = 0.0;                // of the soles
     double bone_m[8] = {};                // upper arms, forearms, thighs, shanks

@@ -8,6 +8,7 @@
 #include "core/program/figures.h"
 #include "producers/camera/multiview/multi_view.h"
 #include "research/capture/thread_time.h"
+#include "testing/camera/limb_joints.h"
 
 namespace dance {
 
@@ -16,21 +17,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr std::array<std::pair<Landmark, Bone>, 12> kSeveralJoints{{
-    {Landmark::kLeftShoulder, Bone::kLeftUpperArm},
-    {Landmark::kRightShoulder, Bone::kRightUpperArm},
-    {Landmark::kLeftElbow, Bone::kLeftLowerArm},
-    {Landmark::kRightElbow, Bone::kRightLowerArm},
-    {Landmark::kLeftWrist, Bone::kLeftHand},
-    {Landmark::kRightWrist, Bone::kRightHand},
-    {Landmark::kLeftHip, Bone::kLeftUpperLeg},
-    {Landmark::kRightHip, Bone::kRightUpperLeg},
-    {Landmark::kLeftKnee, Bone::kLeftLowerLeg},
-    {Landmark::kRightKnee, Bone::kRightLowerLeg},
-    {Landmark::kLeftAnkle, Bone::kLeftFoot},
-    {Landmark::kRightAnkle, Bone::kRightFoot},
-}};
-constexpr std::size_t kHipsAt = 6;
 constexpr double kFirstHz = 30.0;
 // A network's time: a picture of the other camera is known so long after it was taken.
 constexpr Duration kNetworkTime = Duration::ms(8);
@@ -43,10 +29,6 @@ constexpr double kLengthSd = 0.03;
 constexpr double kDegrees = 57.29577951308232;
 constexpr std::array kArm{Landmark::kLeftElbow, Landmark::kLeftWrist, Landmark::kLeftPinky,
                           Landmark::kLeftIndex, Landmark::kLeftThumb};
-
-using Joints = std::array<Vector3d, kSeveralJoints.size()>;
-
-Vector3d hips_of(const Joints& joints) { return 0.5 * (joints[kHipsAt] + joints[kHipsAt + 1]); }
 
 // A body that differs from others as adults do: its height, and each length beside it. A solver
 // that is told the height is told how tall it stands.
@@ -120,8 +102,8 @@ struct Sums {
   DepthErrors sum;
   std::vector<double> hips_mm, steps_mm;
   std::size_t frames = 0;
-  void add(const Joints& got, const Joints& truth) {
-    const Vector3d off = hips_of(got) - hips_of(truth);
+  void add(const LimbPlaces& got, const LimbPlaces& truth) {
+    const Vector3d off = middle_of_hips(got) - middle_of_hips(truth);
     hips_mm.push_back(1e3 * std::abs(off.z()));
     for (std::size_t i = 0; i < got.size(); ++i) {
       const Vector3d error = got[i] - truth[i];
@@ -147,7 +129,7 @@ struct Sums {
 
 // What a run found beside poses.
 struct Found {
-  std::vector<std::optional<Joints>> joints_C_m;  // of each picture
+  std::vector<std::optional<LimbPlaces>> joints_C_m;  // of each picture
   std::vector<std::int64_t> ns;
   double settled_s = -1.0, again_s = -1.0;
   double turn_deg = 0.0, place_mm = 0.0, later_ms = 0.0;  // sums, of `placed_frames`
@@ -168,8 +150,7 @@ void judge_placement(const SeveralStage& stage, const CameraPair& pair, double s
   const Vector3d p_AB = stage.first.R_WC.transpose() * (eye.p_WC_m - stage.first.p_WC_m);
   const RelativePose& pose = placement->pose;
   found.turn_deg += kDegrees * Eigen::AngleAxisd(pose.R_BA * R_BA.transpose()).angle();
-  found.place_mm +=
-      1e3 * (-(pose.R_BA.transpose() * pose.p_BA) * placement->baseline_m - p_AB).norm();
+  found.place_mm += 1e3 * (placement->p_AB_m() - p_AB).norm();
   found.later_ms += 1e3 * std::abs(pose.later_s - eye.later_s(since_s));
   ++found.placed_frames;
 }
@@ -216,22 +197,20 @@ Found run_stage(const SeveralStage& stage, const SeveralCase& what, bool has_two
     if (!is_there) continue;
     forward_kinematics(solver.skeleton(), pose, frames);
     const CameraStand stand = solver.camera_stand();
-    Joints joints;
-    for (std::size_t i = 0; i < joints.size(); ++i)
-      joints[i] = stand.R_WC.transpose() *
-                  (frames.position(kSeveralJoints[i].second).cast<double>() - stand.p_WC_m);
+    LimbPlaces joints = limb_places(frames);
+    for (Vector3d& joint : joints) joint = stand.R_WC.transpose() * (joint - stand.p_WC_m);
     found.joints_C_m.back() = joints;
   }
   if (has_two) found.moves = views.pair(0).moves();
   return found;
 }
 
-Joints truth_of(const SeveralStage& stage, std::size_t f) {
-  Joints joints;
+LimbPlaces truth_of(const SeveralStage& stage, std::size_t f) {
+  LimbPlaces joints;
   for (std::size_t i = 0; i < joints.size(); ++i)
     joints[i] =
         stage.first.R_WC.transpose() *
-        (stage.first.frames[f].truth_W_m[index_of(kSeveralJoints[i].first)] - stage.first.p_WC_m);
+        (stage.first.frames[f].truth_W_m[index_of(kLimbJoints[i].landmark)] - stage.first.p_WC_m);
   return joints;
 }
 
@@ -245,11 +224,12 @@ void judge_run(const SeveralStage& stage, const SeveralCase& what, const Found& 
         !is_covered(since_s - placed_s - 0.5))
       continue;
     if (what.hides_arm && std::fmod(since_s, 4.0) > 2.0) continue;
-    const Joints truth = truth_of(stage, f);
+    const LimbPlaces truth = truth_of(stage, f);
     sums.add(*found.joints_C_m[f], truth);
     if (!found.joints_C_m[f - 1]) continue;
-    const Vector3d way = hips_of(*found.joints_C_m[f]) - hips_of(*found.joints_C_m[f - 1]) -
-                         (hips_of(truth) - hips_of(truth_of(stage, f - 1)));
+    const Vector3d way = middle_of_hips(*found.joints_C_m[f]) -
+                         middle_of_hips(*found.joints_C_m[f - 1]) -
+                         (middle_of_hips(truth) - middle_of_hips(truth_of(stage, f - 1)));
     sums.steps_mm.push_back(1e3 * way.norm());
   }
 }

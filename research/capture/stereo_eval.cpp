@@ -6,8 +6,10 @@
 #include <opencv2/core/mat.hpp>
 
 #include "core/base/assert.h"
+#include "core/base/median.h"
 #include "producers/salsa/salsa_dancer.h"
 #include "research/capture/thread_time.h"
+#include "testing/camera/limb_joints.h"
 
 namespace dance {
 namespace {
@@ -40,22 +42,14 @@ ErrorSummary summary_of(const std::vector<OneError>& errors) {
 // network's own relative depth, their median.
 double triangulated_m(const RectifiedPair& pair, const BodyLandmarks& left,
                       const BodyLandmarks& right, double scale) {
-  constexpr std::array<Landmark, 12> kJoints{
-      Landmark::kLeftShoulder, Landmark::kRightShoulder, Landmark::kLeftElbow,
-      Landmark::kRightElbow,   Landmark::kLeftWrist,     Landmark::kRightWrist,
-      Landmark::kLeftHip,      Landmark::kRightHip,      Landmark::kLeftKnee,
-      Landmark::kRightKnee,    Landmark::kLeftAnkle,     Landmark::kRightAnkle};
   std::vector<double> all;
-  for (const Landmark l : kJoints) {
+  for (const auto& [l, bone] : kLimbJoints) {
     const Eigen::Vector2d a = pair.rectified(Side::kLeft, left.image(l).head<2>().cast<double>());
     const Eigen::Vector2d b = pair.rectified(Side::kRight, right.image(l).head<2>().cast<double>());
     if (a.x() - b.x() > 1.0)
       all.push_back(pair.p_L_m(a, a.x() - b.x()).z() - scale * left.world(l).z());
   }
-  if (all.empty()) return 0.0;
-  std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2),
-                   all.end());
-  return all[all.size() / 2];
+  return median_of<double>(all);
 }
 
 struct Tally {

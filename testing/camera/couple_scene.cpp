@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "testing/camera/limb_joints.h"
+#include "testing/camera/sight_line.h"
+
 namespace dance {
 namespace {
 
@@ -10,30 +13,14 @@ using Eigen::Vector2f;
 using Eigen::Vector3d;
 
 constexpr double kHold_m = 0.25;
-constexpr double kFound =
-    0.6;  // of a dancer's joints that must not be hidden to be detected, at least
+// Of a dancer's joints so many must not be hidden to be detected.
+constexpr double kFound = 0.6;
 // A dancer who is hidden by more is not told from the one before, unless that one is taken out.
 constexpr double kTakenForPartner = 0.4;
 const PictureColour kBackground(0.35f, 0.5f, 0.52f);
 
-constexpr Landmark kCoupleJoints[]{
-    Landmark::kLeftShoulder, Landmark::kRightShoulder, Landmark::kLeftElbow, Landmark::kRightElbow,
-    Landmark::kLeftWrist,    Landmark::kRightWrist,    Landmark::kLeftHip,   Landmark::kRightHip,
-    Landmark::kLeftKnee,     Landmark::kRightKnee,     Landmark::kLeftAnkle, Landmark::kRightAnkle};
 constexpr Landmark kTrunk[]{Landmark::kLeftShoulder, Landmark::kRightShoulder, Landmark::kLeftHip,
                             Landmark::kRightHip};
-
-// The least distance of the way from the camera to p and a bar; `share` says where on the way.
-double distance_m(const Vector3d& p, const Vector3d& a, const Vector3d& b, double& share) {
-  const Vector3d v = b - a, w = -a;
-  const double pp = p.dot(p), pv = p.dot(v), vv = std::max(v.dot(v), 1e-9), pw = p.dot(w),
-               vw = v.dot(w);
-  const double under = std::max(pp * vv - pv * pv, 1e-9);
-  share = std::clamp((pv * vw - vv * pw) / under, 0.0, 1.0);
-  const double t = std::clamp((pv * share + vw) / vv, 0.0, 1.0);
-  share = std::clamp((pv * t - pw) / std::max(pp, 1e-9), 0.0, 1.0);
-  return (share * p - a - t * v).norm();
-}
 
 }  // namespace
 
@@ -80,9 +67,9 @@ std::array<bool, kLandmarkCount> CoupleScene::hidden_points(std::size_t frame,
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
     const Vector3d p = point_C(frame, dancer, i);
     for (const Bar& bar : partner) {
-      double share = 0.0;
-      const bool is_near = distance_m(p, bar.a_C, bar.b_C, share) < bar.radius_m;
-      is_hidden[i] = is_hidden[i] || (is_near && share < 1.0 - 0.05 / p.norm());
+      const NearestPass pass = nearest_pass(p, bar.a_C, bar.b_C);
+      const bool is_near = pass.distance_m < bar.radius_m;
+      is_hidden[i] = is_hidden[i] || (is_near && pass.share < 1.0 - 0.05 / p.norm());
     }
   }
   return is_hidden;
@@ -91,8 +78,8 @@ std::array<bool, kLandmarkCount> CoupleScene::hidden_points(std::size_t frame,
 double CoupleScene::hidden(std::size_t frame, std::size_t dancer) const {
   const auto points = hidden_points(frame, dancer);
   double hidden = 0.0;
-  for (const Landmark l : kCoupleJoints) hidden += points[index_of(l)] ? 1.0 : 0.0;
-  return hidden / static_cast<double>(std::size(kCoupleJoints));
+  for (const LimbJoint& joint : kLimbJoints) hidden += points[index_of(joint.landmark)] ? 1.0 : 0.0;
+  return hidden / static_cast<double>(kLimbJoints.size());
 }
 
 std::size_t CoupleScene::nearer(std::size_t frame, const SeenBody& body) const {
@@ -228,9 +215,9 @@ std::optional<PictureColour> CoupleScene::colour(const Vector2f& place_px) {
   double nearest = 1.0;
   for (std::size_t i = 0; i < 2; ++i)
     for (const Bar& bar : bars_[i]) {
-      double share = 0.0;
-      if (distance_m(far, bar.a_C, bar.b_C, share) >= bar.radius_m || share >= nearest) continue;
-      nearest = share;
+      const NearestPass pass = nearest_pass(far, bar.a_C, bar.b_C);
+      if (pass.distance_m >= bar.radius_m || pass.share >= nearest) continue;
+      nearest = pass.share;
       colour = clothes_[i][bar.part];
     }
   for (int c = 0; c < 3; ++c) colour[c] += static_cast<float>(errors_.colour_sd * random_.normal());

@@ -5,6 +5,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "core/base/median.h"
+
 namespace dance {
 namespace {
 
@@ -58,12 +60,6 @@ cv::Point shift_of(const cv::Mat& before, const cv::Mat& now, const cv::Rect& bl
   return best < kBetter * at_rest ? shift : cv::Point(0, 0);
 }
 
-int median_of(std::vector<int>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 void ViewShake::reset() {
@@ -87,7 +83,8 @@ float ViewShake::shift_px(const cv::Mat& before, const cv::Mat& now, const SeenB
       down_.push_back(shift.y);
     }
   if (across_.size() < kFewestBlocks) return 0.0f;
-  return std::hypot(static_cast<float>(median_of(across_)), static_cast<float>(median_of(down_)));
+  return std::hypot(static_cast<float>(median_of<int>(across_)),
+                    static_cast<float>(median_of<int>(down_)));
 }
 
 float ViewShake::see(const cv::Mat& luma, const SeenBody2d& body, MonoTime time) {

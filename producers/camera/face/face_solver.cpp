@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/median.h"
+
 namespace dance {
 
 using Eigen::Quaternionf;
@@ -133,8 +135,7 @@ bool FaceSolver::learn_rest(const FaceShape& shape) {
   for (std::size_t f = 0; f < kFaceFeatureCount; ++f) {
     std::array<float, kSamples> values;
     for (std::size_t i = 0; i < kSamples; ++i) values[i] = sample_[i][f];
-    std::nth_element(values.begin(), values.begin() + kSamples / 2, values.end());
-    rest_[f] = values[kSamples / 2];
+    rest_[f] = median_of<float>(values);
   }
   return true;
 }

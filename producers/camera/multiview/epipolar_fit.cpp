@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/median.h"
+
 namespace dance {
 
 using Eigen::Matrix3d;
@@ -55,11 +57,6 @@ bool residual_of(const RelativePose& pose, const Eigen::Matrix<double, 3, 2>& wa
   return true;
 }
 
-double median_of(float* begin, std::size_t count) {
-  std::nth_element(begin, begin + count / 2, begin + count);
-  return static_cast<double>(begin[count / 2]);
-}
-
 }  // namespace
 
 void EpipolarFit::begin(const RelativePose& pose) {
@@ -99,7 +96,7 @@ bool EpipolarFit::step(const KeyMoments& moments, const ViewHistory& other, bool
   }
   if (moments_ < kLeastMoments || count == 0) return false;
   normal = Normal(normal.selfadjointView<Eigen::Lower>());
-  const double spread = kOfMedian * median_of(sizes_.data(), count);
+  const double spread = kOfMedian * static_cast<double>(median_of(std::span(sizes_.data(), count)));
   // The residuals' own spread makes their weights.
   const double variance = std::max(1.0, spread * spread) * kSame;
   normal /= variance;
@@ -141,7 +138,7 @@ double spread_of_moment(const RelativePose& pose, const ViewPoints& first,
     if (residual_of(pose, ways, first, b, i, residual))
       sizes[count++] = static_cast<float>(std::abs(residual.value));
   if (count < kFewestPoints) return -1.0;
-  return kOfMedian * median_of(sizes.data(), count);
+  return kOfMedian * static_cast<double>(median_of(std::span(sizes.data(), count)));
 }
 
 }  // namespace dance

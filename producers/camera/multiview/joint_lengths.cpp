@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/median.h"
 #include "producers/camera/solver/length_spans.h"
 
 namespace dance {
@@ -103,10 +104,8 @@ void JointLengths::measure(const ViewPoints& first, const ViewMoment& other) {
 double JointLengths::median_of(const Samples& samples) {
   if (samples.count < kFewest) return 0.0;
   std::array<float, kMost> sorted;
-  const auto end = std::copy_n(samples.values.begin(), samples.count, sorted.begin());
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(samples.count / 2);
-  std::nth_element(sorted.begin(), middle, end);
-  return static_cast<double>(*middle);
+  std::copy_n(samples.values.begin(), samples.count, sorted.begin());
+  return static_cast<double>(dance::median_of(std::span(sorted.data(), samples.count)));
 }
 
 double JointLengths::stature(const BodyLengths& lengths) const {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/median.h"
+
 namespace dance {
 
 using Eigen::Matrix3d;
@@ -76,12 +78,6 @@ Matrix3d nearest_turn(const Matrix3d& sum) {
   return svd.matrixU() * flip * svd.matrixV().transpose();
 }
 
-double median_of(std::array<float, KeyMoments::kCapacity>& values, std::size_t count) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(values.begin(), middle, values.begin() + static_cast<std::ptrdiff_t>(count));
-  return static_cast<double>(*middle);
-}
-
 }  // namespace
 
 bool align_views(const KeyMoments& moments, const ViewHistory& other, RelativePose& out) {
@@ -114,8 +110,10 @@ bool align_views(const KeyMoments& moments, const ViewHistory& other, RelativePo
     ++count;
   }
   if (count < kFewestAligned) return false;
-  const Vector3d way(median_of(ways[0], count), median_of(ways[1], count),
-                     median_of(ways[2], count));
+  Vector3d way;
+  for (int axis = 0; axis < 3; ++axis)
+    way[axis] = static_cast<double>(
+        median_of(std::span(ways[static_cast<std::size_t>(axis)].data(), count)));
   if (!(way.norm() > 1e-3)) return false;
   out.p_BA = way.normalized();
   return true;

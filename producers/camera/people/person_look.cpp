@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/median.h"
+
 namespace dance {
 namespace {
 
@@ -25,12 +27,8 @@ struct Samples {
   bool median(PictureColour& out) {
     constexpr std::size_t kEnough = 4;
     if (count < kEnough) return false;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto middle = channel[c].begin() + static_cast<std::ptrdiff_t>(count / 2);
-      std::nth_element(channel[c].begin(), middle,
-                       channel[c].begin() + static_cast<std::ptrdiff_t>(count));
-      out[static_cast<int>(c)] = *middle;
-    }
+    for (std::size_t c = 0; c < 3; ++c)
+      out[static_cast<int>(c)] = median_of(std::span(channel[c].data(), count));
     return true;
   }
 };

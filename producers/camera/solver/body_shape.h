@@ -51,6 +51,11 @@ enum class Length : std::uint8_t {
 constexpr std::size_t kLengthCount = 9;
 using BodyLengths = std::array<double, kLengthCount>;  // metres
 
+// All of them so many times as long.
+inline BodyLengths scaled(BodyLengths lengths, double by) {
+  for (double& length : lengths) length *= by;
+  return lengths;
+}
 // Those of an adult of this height with average proportions.
 BodyLengths average_lengths(double height_m);
 // A body of these lengths; all others are average for its height.

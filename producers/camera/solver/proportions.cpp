@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/median.h"
 #include "producers/camera/solver/length_spans.h"
 
 namespace dance {
@@ -98,9 +99,8 @@ bool Proportions::medians(const AllSamples& all, BodyLengths& lengths,
     is_measured[l] = false;
     if (samples.count < kFewest) continue;
     std::array<float, kHeld> sorted = samples.values;
-    const auto middle = sorted.begin() + samples.count / 2;
-    std::nth_element(sorted.begin(), middle, sorted.begin() + samples.count);
-    lengths[l] = static_cast<double>(*middle);
+    const std::span<float> measured(sorted.data(), static_cast<std::size_t>(samples.count));
+    lengths[l] = static_cast<double>(median_of(measured));
     is_measured[l] = lengths[l] > 0.01;
     if (is_measured[l] && kWorth[l] > 0.9) {
       ratio += std::log(lengths[l] / average[l]);
@@ -133,9 +133,7 @@ BodyLengths Proportions::lengths() const {
     const double ratio = std::clamp(lengths[l] / average[l], 1.0 / kMostRatio, kMostRatio);
     lengths[l] = average[l] * std::pow(ratio, kWorth[l]);
   }
-  const double by = scale(lengths);
-  for (double& l : lengths) l *= by;
-  return lengths;
+  return scaled(lengths, scale(lengths));
 }
 
 }  // namespace dance

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "core/base/median.h"
 #include "producers/camera/stereo/row_strip.h"
 
 namespace dance {
@@ -22,13 +23,6 @@ cv::Mat grey_of(const cv::Mat& picture) {
   cv::Mat grey;
   cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
   return grey;
-}
-
-double median_of(std::vector<double>& all) {
-  if (all.empty()) return 0.0;
-  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-  std::nth_element(all.begin(), middle, all.end());
-  return *middle;
 }
 
 // The row, relative to its own, in which the right camera has the patch; false where it has it in
@@ -93,9 +87,9 @@ RowCheck check_rows(const cv::Mat& left, const cv::Mat& right, const StereoRig& 
   }
   RowCheck out;
   out.points = static_cast<int>(offsets.size());
-  out.offset_px = median_of(offsets);
+  out.offset_px = median_of<double>(offsets);
   for (double& offset : offsets) offset = std::abs(offset);
-  out.residual_px = median_of(offsets);
+  out.residual_px = median_of<double>(offsets);
   return out;
 }
 

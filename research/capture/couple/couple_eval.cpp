@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <fstream>
-#include <limits>
 
+#include "core/program/figures.h"
 #include "producers/camera/estimator/pose_estimator.h"
 #include "producers/camera/solver/body_solver.h"
 #include "research/capture/thread_time.h"
@@ -19,13 +19,6 @@ using Eigen::Vector3d;
 constexpr double kFullyHidden = 0.7;
 constexpr std::size_t kWarmUp = 60;  // frames in which the solver learns bones and floor
 
-constexpr Landmark kJudgedLandmarks[kJudgedCount]{
-    Landmark::kLeftShoulder, Landmark::kRightShoulder, Landmark::kLeftElbow, Landmark::kRightElbow,
-    Landmark::kLeftWrist,    Landmark::kRightWrist,    Landmark::kLeftHip,   Landmark::kRightHip,
-    Landmark::kLeftKnee,     Landmark::kRightKnee,     Landmark::kLeftAnkle, Landmark::kRightAnkle};
-constexpr std::size_t kWrists[]{4, 5};
-constexpr std::size_t kHips[]{6, 7};
-
 double thread_ms() { return 1e-6 * static_cast<double>(thread_time_ns()); }
 
 // The mean distance of a body's joints in the picture, sides exchanged where that is nearer: a back
@@ -33,7 +26,7 @@ double thread_ms() { return 1e-6 * static_cast<double>(thread_time_ns()); }
 double distance_px(const BodyLandmarks& seen, const std::array<Vector2d, kJudgedCount>& truth) {
   double straight = 0.0, exchanged = 0.0;
   for (std::size_t j = 0; j < kJudgedCount; ++j) {
-    const Vector2d p = seen.image(kJudgedLandmarks[j]).head<2>().cast<double>();
+    const Vector2d p = seen.image(kLimbJoints[j].landmark).head<2>().cast<double>();
     straight += (p - truth[j]).norm();
     exchanged += (p - truth[j ^ 1]).norm();
   }
@@ -61,10 +54,25 @@ class IdentityJudge {
   IdentityFigures figures_;
 };
 
-double percentile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
+double percentile_of(std::vector<double> values, double fraction) {
   std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+  return percentile<double>(values, fraction);
+}
+
+// A mean over `frames`, and one over `more`, become one over both.
+void merge(double& mean, std::size_t frames, double other, std::size_t more) {
+  if (more == 0) return;
+  mean = (mean * static_cast<double>(frames) + other * static_cast<double>(more)) /
+         static_cast<double>(frames + more);
+}
+
+void add(WristFigures& sum, const WristFigures& more) {
+  merge(sum.all_mm, sum.frames, more.all_mm, more.frames);
+  merge(sum.hips_mm, sum.frames, more.hips_mm, more.frames);
+  merge(sum.in_hold_median_mm, sum.frames_in_hold, more.in_hold_median_mm, more.frames_in_hold);
+  merge(sum.in_hold_mm, sum.frames_in_hold, more.in_hold_mm, more.frames_in_hold);
+  sum.frames += more.frames;
+  sum.frames_in_hold += more.frames_in_hold;
 }
 
 // A dancer's shown bodies against the truth.
@@ -74,41 +82,34 @@ class WristJudge {
              const Pose& pose) {
     BodyFrames frames;
     forward_kinematics(skeleton, pose, frames);
-    std::array<Vector3d, kJudgedCount> shown;
-    for (std::size_t j = 0; j < kJudgedCount; ++j)
-      shown[j] = frames.position(kJudgedBones[j]).cast<double>();
+    const LimbPlaces shown = limb_places(frames);
     const auto& is = truth.joint_W_m[person];
-    const Vector3d shown_hips = 0.5 * (shown[kHips[0]] + shown[kHips[1]]),
-                   hips = 0.5 * (is[kHips[0]] + is[kHips[1]]);
-    for (const std::size_t j : kWrists) {
+    const Vector3d shown_hips = middle_of_hips(shown), hips = middle_of_hips(is);
+    for (std::size_t j = kWristsAt; j < kHipsAt; ++j) {
       const double off = 1e3 * ((shown[j] - shown_hips) - (is[j] - hips)).norm();
       all_.push_back(off);
       if (truth.is_in_hold) in_hold_.push_back(off);
     }
     hips_.push_back(shown_hips - hips);
   }
-  void add_to(WristFigures& figures) const {
+  WristFigures figures() const {
     const auto mean = [](const std::vector<double>& values) {
       double sum = 0.0;
       for (const double v : values) sum += v;
       return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
     };
-    const auto merge = [](double& was, std::size_t& frames, double is, std::size_t more) {
-      if (more == 0) return;
-      was = (was * static_cast<double>(frames) + is * static_cast<double>(more)) /
-            static_cast<double>(frames + more);
-      frames += more;
-    };
     Vector3d offset = Vector3d::Zero();
     for (const Vector3d& p : hips_) offset += p / static_cast<double>(hips_.size());
     std::vector<double> off;
     for (const Vector3d& p : hips_) off.push_back(1e3 * (p - offset).norm());
-    std::size_t frames = figures.frames;
-    merge(figures.hips_mm, frames, mean(off), all_.size());
-    merge(figures.all_mm, figures.frames, mean(all_), all_.size());
-    std::size_t in_hold = figures.frames_in_hold;
-    merge(figures.in_hold_median_mm, in_hold, percentile(in_hold_, 0.5), in_hold_.size());
-    merge(figures.in_hold_mm, figures.frames_in_hold, mean(in_hold_), in_hold_.size());
+    WristFigures figures;
+    figures.all_mm = mean(all_);
+    figures.hips_mm = mean(off);
+    figures.in_hold_mm = mean(in_hold_);
+    figures.in_hold_median_mm = percentile_of(in_hold_, 0.5);
+    figures.frames = all_.size();
+    figures.frames_in_hold = in_hold_.size();
+    return figures;
   }
 
  private:
@@ -195,10 +196,10 @@ class Evaluation {
       log << '\n';
     }
     score_.people = identities.figures();
-    for (const WristJudge& judge : wrists) judge.add_to(score_.together);
+    for (const WristJudge& judge : wrists) add(score_.together, judge.figures());
     score_.counters = estimator->tracker().counters();
-    score_.ms_median = percentile(times, 0.5);
-    score_.ms_p95 = percentile(times, 0.95);
+    score_.ms_median = percentile_of(times, 0.5);
+    score_.ms_p95 = percentile_of(times, 0.95);
     return {};
   }
 
@@ -225,11 +226,8 @@ class Evaluation {
                           const Skeleton& skeleton, const Pose& pose) {
     BodyFrames frames;
     forward_kinematics(skeleton, pose, frames);
-    const auto shown = [&](std::size_t j) {
-      return Vector3d(frames.position(kJudgedBones[j]).cast<double>());
-    };
-    const auto& is = truth.joint_W_m[person];
-    const Vector3d off = 0.5 * (shown(kHips[0]) + shown(kHips[1]) - is[kHips[0]] - is[kHips[1]]);
+    const Vector3d off =
+        middle_of_hips(limb_places(frames)) - middle_of_hips(truth.joint_W_m[person]);
     log << fmt::format("  {} at {:.2f} {:.2f} {:.2f} tall {:.2f}", person, off.x(), off.y(),
                        off.z(), standing_height_m(skeleton));
   }
@@ -241,7 +239,7 @@ class Evaluation {
       EstimatorOptions options = networks_;
       options.follow.choice = FollowOptions::Choice::kNearest;
       options.follow.place_px =
-          couple_.truth(wishes_.first_frame).joint_px[person][kHips[0]].cast<float>();
+          couple_.truth(wishes_.first_frame).joint_px[person][kHipsAt].cast<float>();
       DANCE_TRY(auto estimator, PoseEstimator::open(options));
       for (std::size_t f = wishes_.first_frame; f < end_; ++f) {
         DANCE_TRY(const Frame frame, frame_of(f, DrawnCouple::Who::kBoth));
@@ -269,8 +267,8 @@ class Evaluation {
       if (is_shown && f >= wishes_.first_frame + kWarmUp)
         wrists.judge(couple_.truth(f), person, solver.skeleton(), pose);
     }
-    wrists.add_to(score_.alone);
-    score_.alone_ms_median = std::max(score_.alone_ms_median, percentile(times, 0.5));
+    add(score_.alone, wrists.figures());
+    score_.alone_ms_median = std::max(score_.alone_ms_median, percentile_of(times, 0.5));
     return {};
   }
 
@@ -288,20 +286,6 @@ void add(IdentityFigures& sum, const IdentityFigures& more) {
   sum.wrong += more.wrong;
   sum.missing += more.missing;
   sum.longest_wrong_s = std::max(sum.longest_wrong_s, more.longest_wrong_s);
-}
-
-void add(WristFigures& sum, const WristFigures& more) {
-  const auto merge = [](double& was, double is, std::size_t frames, std::size_t fresh) {
-    if (fresh > 0)
-      was = (was * static_cast<double>(frames) + is * static_cast<double>(fresh)) /
-            static_cast<double>(frames + fresh);
-  };
-  merge(sum.all_mm, more.all_mm, sum.frames, more.frames);
-  merge(sum.hips_mm, more.hips_mm, sum.frames, more.frames);
-  merge(sum.in_hold_median_mm, more.in_hold_median_mm, sum.frames_in_hold, more.frames_in_hold);
-  merge(sum.in_hold_mm, more.in_hold_mm, sum.frames_in_hold, more.frames_in_hold);
-  sum.frames += more.frames;
-  sum.frames_in_hold += more.frames_in_hold;
 }
 
 }  // namespace
@@ -329,9 +313,9 @@ CoupleScore all_of(const std::vector<CoupleScore>& scores) {
     p95.push_back(score.ms_p95);
     alone.push_back(score.alone_ms_median);
   }
-  all.ms_median = percentile(ms, 0.5);
-  all.ms_p95 = percentile(p95, 0.5);
-  all.alone_ms_median = percentile(alone, 0.5);
+  all.ms_median = percentile_of(ms, 0.5);
+  all.ms_p95 = percentile_of(p95, 0.5);
+  all.alone_ms_median = percentile_of(alone, 0.5);
   return all;
 }
 

@@ -32,7 +32,8 @@ struct CoupleEvalWishes {
   double hz = 30.0;
   double from_s = 0.0, seconds = 0.0;
   double distance_m = 4.2;
-  std::string pictures, log, model = "full";
+  std::string pictures, log;
+  PoseModel model = PoseModel::kFull;
   bool is_json = false;
   bool is_quick = false;
 };
@@ -97,9 +98,7 @@ Result<void> evaluate(const CoupleEvalWishes& wishes) {
   CoupleWishes how;
   how.log = wishes.log;
   how.has_baselines = !wishes.is_quick;
-  how.model = wishes.model == "lite"    ? PoseModel::kLite
-              : wishes.model == "heavy" ? PoseModel::kHeavy
-                                        : PoseModel::kFull;
+  how.model = wishes.model;
   how.first_frame = static_cast<std::size_t>(wishes.from_s * wishes.hz);
   if (wishes.seconds > 0.0) how.most_frames = static_cast<std::size_t>(wishes.seconds * wishes.hz);
   std::vector<CoupleScore> scores;
@@ -152,9 +151,11 @@ int main(int argc, char** argv) {
       .shows_default();
   line.add("--pictures", wishes.pictures, "a folder that keeps the pictures for the next run");
   line.add("--log", wishes.log, "a file that gets a line for each picture");
-  line.add("--model", wishes.model, "the network")
-      .one_of({"lite", "full", "heavy"})
-      .shows_default();
+  line.add_choice<dance::PoseModel>("--model", wishes.model,
+                                    {{"lite", dance::PoseModel::kLite},
+                                     {"full", dance::PoseModel::kFull},
+                                     {"heavy", dance::PoseModel::kHeavy}},
+                                    "size of the pose network");
   line.add_flag("--quick", wishes.is_quick, "without the baselines");
   line.add_flag("--json", wishes.is_json, "one JSON object on stdout");
   line.footer(dance::kCoupleExamples);

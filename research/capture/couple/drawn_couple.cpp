@@ -7,11 +7,12 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <opencv2/imgproc.hpp>
 
 #include "core/program/whole_file.h"
 #include "formats/avatar/avatar_reader.h"
-#include "formats/picture/jpeg_writer.h"
-#include "formats/picture/picture.h"
+#include "producers/camera/files/bgr_picture.h"
+#include "testing/camera/sight_line.h"
 #include "viewer/gl/offscreen.h"
 #include "viewer/scene/camera.h"
 #include "viewer/stage/stage_painter.h"
@@ -21,7 +22,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kLeftWrist = 4, kLeftHip = 6;
 constexpr double kHold_m = 0.25;
 constexpr int kJpegQuality = 92;
 
@@ -46,17 +46,6 @@ std::vector<Capsule> capsules_of(const BodyFrames& frames) {
         std::tuple{Bone::kRightLowerLeg, Bone::kRightFoot, 0.05}})
     capsules.push_back({at(from), at(to), radius});
   return capsules;
-}
-
-// Whether the way from `eye` to `p` passes through the capsule: the least distance of two segments.
-bool hides(const Capsule& capsule, const Vector3d& eye, const Vector3d& p) {
-  const Vector3d u = p - eye, v = capsule.b - capsule.a, w = eye - capsule.a;
-  const double a = u.dot(u), b = u.dot(v), c = v.dot(v), d = u.dot(w), e = v.dot(w);
-  const double below = std::max(1e-12, a * c - b * b);
-  double s = std::clamp((b * e - c * d) / below, 0.0, 1.0);
-  const double t = std::clamp((b * s + e) / std::max(1e-12, c), 0.0, 1.0);
-  s = std::clamp((b * t - d) / std::max(1e-12, a), 0.0, 1.0);
-  return (eye + s * u - capsule.a - t * v).norm() < capsule.radius_m;
 }
 
 }  // namespace
@@ -102,7 +91,7 @@ class DrawnCouple::Inside {
 
   Result<cv::Mat> picture(std::size_t frame, Who who) {
     const std::string file = file_of(frame, who);
-    if (!file.empty() && std::filesystem::exists(file)) return read(file);
+    if (!file.empty() && std::filesystem::exists(file)) return read_bgr_picture(file);
     if (!painter_)
       if (auto begun = begin_drawing(); !begun) return tl::make_unexpected(begun.error());
     SceneState scene;
@@ -123,17 +112,17 @@ class DrawnCouple::Inside {
     if (auto drawn = painter_->draw(scene, camera_, view_.width_px, view_.height_px, no_words);
         !drawn)
       return tl::make_unexpected(drawn.error());
-    const Picture picture = painter_->read();
-    if (!file.empty()) {
-      DANCE_TRY(const auto bytes,
-                jpeg_of_rgb(picture.width_px, picture.height_px, picture.rgb, kJpegQuality));
-      std::filesystem::create_directories(std::filesystem::path(file).parent_path());
-      std::ofstream(file, std::ios::binary)
-          .write(reinterpret_cast<const char*>(bytes.data()),
-                 static_cast<std::streamsize>(bytes.size()));
-      return read(file);
-    }
-    return bgr_of(picture.width_px, picture.height_px, picture.rgb.data(), 3);
+    Picture picture = painter_->read();
+    cv::Mat bgr;
+    cv::cvtColor(cv::Mat(picture.height_px, picture.width_px, CV_8UC3, picture.rgb.data()), bgr,
+                 cv::COLOR_RGB2BGR);
+    if (file.empty()) return bgr;
+    DANCE_TRY(const auto bytes, jpeg_of_bgr(bgr, kJpegQuality));
+    std::filesystem::create_directories(std::filesystem::path(file).parent_path());
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+    return read_bgr_picture(file);
   }
 
   std::size_t frames_ = 0;
@@ -143,22 +132,6 @@ class DrawnCouple::Inside {
   double hz() const { return takes_[0]->hz; }
 
  private:
-  static cv::Mat bgr_of(int width, int height, const std::uint8_t* pixels, int channels) {
-    cv::Mat bgr(height, width, CV_8UC3);
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x, pixels += channels)
-        bgr.at<cv::Vec3b>(y, x) = {pixels[2], pixels[1], pixels[0]};
-    return bgr;
-  }
-  Result<cv::Mat> read(const std::string& file) const {
-    DANCE_TRY(const auto bytes, read_whole_file(file, std::size_t{1} << 24));
-    PictureLimits limits;
-    limits.reduced_side_px = 0;
-    DANCE_TRY(
-        const RgbaPicture picture,
-        read_picture({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, limits));
-    return bgr_of(picture.width_px, picture.height_px, picture.rgba.data(), 4);
-  }
   std::string file_of(std::size_t frame, Who who) const {
     if (view_.pictures.empty()) return "";
     const char* word = who == Who::kBoth ? "both" : who == Who::kLead ? "lead" : "follow";
@@ -177,20 +150,21 @@ class DrawnCouple::Inside {
       const std::vector<Capsule> partner = capsules_of(bodies[1 - i]);
       int hidden = 0;
       for (std::size_t j = 0; j < kJudgedCount; ++j) {
-        const Eigen::Vector3f p = bodies[i].position(kJudgedBones[j]);
+        const Eigen::Vector3f p = bodies[i].position(kLimbJoints[j].bone);
         truth.joint_W_m[i][j] = turn * p.cast<double>();
         const auto screen = project(camera_, p, static_cast<float>(view_.width_px),
                                     static_cast<float>(view_.height_px));
         truth.joint_px[i][j] =
             screen ? Eigen::Vector2d(screen->x_px, screen->y_px) : Eigen::Vector2d(-1e4, -1e4);
         hidden += std::any_of(partner.begin(), partner.end(), [&](const Capsule& capsule) {
-          return hides(capsule, eye, p.cast<double>());
+          return nearest_pass(p.cast<double>() - eye, capsule.a - eye, capsule.b - eye).distance_m <
+                 capsule.radius_m;
         });
       }
       truth.hidden[i] = static_cast<double>(hidden) / static_cast<double>(kJudgedCount);
     }
-    for (std::size_t a = kLeftWrist; a < kLeftHip; ++a)
-      for (std::size_t b = kLeftWrist; b < kLeftHip; ++b)
+    for (std::size_t a = kWristsAt; a < kHipsAt; ++a)
+      for (std::size_t b = kWristsAt; b < kHipsAt; ++b)
         if ((truth.joint_W_m[0][a] - truth.joint_W_m[1][b]).norm() < kHold_m)
           truth.is_in_hold = true;
     return truth;

@@ -22,12 +22,6 @@
 
 namespace dance {
 
-// In the order of the judged joints: left and right of each.
-inline constexpr std::array<Bone, kJudgedCount> kJudgedBones{
-    Bone::kLeftUpperArm, Bone::kRightUpperArm, Bone::kLeftLowerArm, Bone::kRightLowerArm,
-    Bone::kLeftHand,     Bone::kRightHand,     Bone::kLeftUpperLeg, Bone::kRightUpperLeg,
-    Bone::kLeftLowerLeg, Bone::kRightLowerLeg, Bone::kLeftFoot,     Bone::kRightFoot};
-
 struct CoupleView {
   int width_px = 960, height_px = 540;
   double fov_deg = 65.0;  // across, as of a webcam
@@ -40,8 +34,7 @@ struct CoupleView {
 };
 
 struct CoupleTruth {
-  using Joints = std::array<Eigen::Vector3d, kJudgedCount>;
-  std::array<Joints, 2> joint_W_m;
+  std::array<LimbPlaces, 2> joint_W_m;
   std::array<std::array<Eigen::Vector2d, kJudgedCount>, 2> joint_px;
   // The share of a dancer's joints that the partner's body hides.
   std::array<double, 2> hidden{};

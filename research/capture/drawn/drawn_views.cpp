@@ -14,6 +14,7 @@
 #include "formats/body/guest_look.h"
 #include "producers/camera/files/bgr_picture.h"
 #include "producers/salsa/salsa_dancer.h"
+#include "testing/camera/limb_joints.h"
 #include "viewer/gl/offscreen.h"
 #include "viewer/gl/picture.h"
 #include "viewer/stage/stage_renderer.h"
@@ -148,22 +149,10 @@ SceneState scene_of(const DrawnDance& dance, double t_s, const GuestId& guest,
 }
 
 void write_truth(const DrawnDance& dance, double t_s, SceneFrame& frame) {
-  constexpr std::pair<Landmark, Bone> kJoints[]{{Landmark::kLeftShoulder, Bone::kLeftUpperArm},
-                                                {Landmark::kRightShoulder, Bone::kRightUpperArm},
-                                                {Landmark::kLeftElbow, Bone::kLeftLowerArm},
-                                                {Landmark::kRightElbow, Bone::kRightLowerArm},
-                                                {Landmark::kLeftWrist, Bone::kLeftHand},
-                                                {Landmark::kRightWrist, Bone::kRightHand},
-                                                {Landmark::kLeftHip, Bone::kLeftUpperLeg},
-                                                {Landmark::kRightHip, Bone::kRightUpperLeg},
-                                                {Landmark::kLeftKnee, Bone::kLeftLowerLeg},
-                                                {Landmark::kRightKnee, Bone::kRightLowerLeg},
-                                                {Landmark::kLeftAnkle, Bone::kLeftFoot},
-                                                {Landmark::kRightAnkle, Bone::kRightFoot}};
   BodyFrames frames;
   forward_kinematics(dance.skeleton(), dance.at(t_s), frames);
   frame.truth_W_m.fill(Vector3d::Zero());
-  for (const auto& [landmark, bone] : kJoints)
+  for (const auto& [landmark, bone] : kLimbJoints)
     frame.truth_W_m[index_of(landmark)] = frames.position(bone).cast<double>();
 }
 

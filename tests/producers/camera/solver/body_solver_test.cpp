@@ -60,11 +60,11 @@ TEST(BodySolver, IsNearerToTheDanceThanTheNetwork) {
     const auto& truth = scene.frames[f].truth_W_m;
     const Eigen::Vector3d hips =
         0.5 * (truth[index_of(Landmark::kLeftHip)] + truth[index_of(Landmark::kRightHip)]);
-    for (const auto& joint : kSeenJoints)
-      network_m +=
-          (scene.R_WC * l.world(joint.first).cast<double>() - (truth[index_of(joint.first)] - hips))
-              .norm() /
-          static_cast<double>(kSeenJoints.size());
+    for (const auto& joint : kLimbJoints)
+      network_m += (scene.R_WC * l.world(joint.landmark).cast<double>() -
+                    (truth[index_of(joint.landmark)] - hips))
+                       .norm() /
+                   static_cast<double>(kLimbJoints.size());
   }
   network_m /= static_cast<double>(scene.frames.size() - 120);
   EXPECT_LT(error_before_camera_m(scene, {}, 120), 0.92 * network_m);

@@ -15,6 +15,7 @@
 #include "producers/camera/solver/body_solver.h"
 #include "producers/salsa/salsa_dancer.h"
 #include "testing/camera/capture_scene.h"
+#include "testing/camera/limb_joints.h"
 
 namespace dance {
 
@@ -51,21 +52,6 @@ inline Pose standing() {
   return pose;
 }
 
-constexpr std::array<std::pair<Landmark, Bone>, 12> kSeenJoints{{
-    {Landmark::kLeftShoulder, Bone::kLeftUpperArm},
-    {Landmark::kRightShoulder, Bone::kRightUpperArm},
-    {Landmark::kLeftElbow, Bone::kLeftLowerArm},
-    {Landmark::kRightElbow, Bone::kRightLowerArm},
-    {Landmark::kLeftWrist, Bone::kLeftHand},
-    {Landmark::kRightWrist, Bone::kRightHand},
-    {Landmark::kLeftHip, Bone::kLeftUpperLeg},
-    {Landmark::kRightHip, Bone::kRightUpperLeg},
-    {Landmark::kLeftKnee, Bone::kLeftLowerLeg},
-    {Landmark::kRightKnee, Bone::kRightLowerLeg},
-    {Landmark::kLeftAnkle, Bone::kLeftFoot},
-    {Landmark::kRightAnkle, Bone::kRightFoot},
-}};
-
 // Mean distance of the twelve joints of limbs from the truth, relative to the middle of the hips;
 // the solver's stage leans by so much.
 inline double joint_error_m(const SceneFrame& truth, const Skeleton& skeleton, const Pose& pose,
@@ -78,9 +64,9 @@ inline double joint_error_m(const SceneFrame& truth, const Skeleton& skeleton, c
   const Eigen::Vector3d true_hips = 0.5 * (truth.truth_W_m[index_of(Landmark::kLeftHip)] +
                                            truth.truth_W_m[index_of(Landmark::kRightHip)]);
   double sum = 0.0;
-  for (const auto& [landmark, bone] : kSeenJoints)
+  for (const auto& [landmark, bone] : kLimbJoints)
     sum += (upright * (at(bone) - hips) - (truth.truth_W_m[index_of(landmark)] - true_hips)).norm();
-  return sum / static_cast<double>(kSeenJoints.size());
+  return sum / static_cast<double>(kLimbJoints.size());
 }
 
 }  // namespace dance
