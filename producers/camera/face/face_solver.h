@@ -36,7 +36,6 @@ class FaceSolver {
   bool write(MonoTime now, Face& out) const;
   // Of the last face that was seen.
   const Eigen::Quaternionf& R_CHead() const { return R_CHead_; }
-  bool is_seen() const { return is_seen_; }
   bool knows_rest() const { return samples_ >= kSamples; }
   void reset();
 

@@ -129,7 +129,6 @@ void CameraPair::finish_lengths(const DancerSize& size) {
     return;
   }
   if (!placement_) {
-    settled_at_ = now_;
     checked_ = moments_.added();
     recent_spread_ = usual_spread_ = std::max(1.0, fit_.spread());
     has_told_lengths_ = false;
@@ -138,8 +137,7 @@ void CameraPair::finish_lengths(const DancerSize& size) {
                 fit_.turn_sd_rad(), fit_.later_sd_s(), fit_.spread()};
   if (has_told_lengths_ || lengths_.moments() < kLengthMoments) return;
   has_told_lengths_ = true;
-  new_lengths_ = *lengths;
-  for (double& l : *new_lengths_) l *= baseline_m;
+  new_lengths_ = scaled(*lengths, baseline_m);
 }
 
 std::optional<BodyLengths> CameraPair::take_lengths() {
@@ -192,11 +190,7 @@ void CameraPair::check_moments() {
 
 void CameraPair::give_up() {
   placement_.reset();
-  new_lengths_.reset();
-  moments_.clear();
-  is_searching_ = is_measuring_ = false;
-  search_from_ = kFewestMoments;
-  checked_ = 0;
+  reset_body();
   ++moves_;
 }
 

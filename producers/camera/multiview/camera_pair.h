@@ -35,6 +35,9 @@ struct PairPlacement {
   double turn_sd_rad = 0.0;
   double later_sd_s = 0.0;
   double spread = 0.0;  // how far rays miss each other, in standard deviations of one
+
+  // Where the second camera is, in the first one's frame.
+  Eigen::Vector3d p_AB_m() const { return -baseline_m * (pose.R_BA.transpose() * pose.p_BA); }
 };
 
 class CameraPair {
@@ -46,8 +49,6 @@ class CameraPair {
 
   bool is_settled() const { return placement_.has_value(); }
   const std::optional<PairPlacement>& placement() const { return placement_; }
-  // Since when, by the first camera's stamps.
-  MonoTime settled_at() const { return settled_at_; }
   // How often a placement was given up, as a camera was moved.
   int moves() const { return moves_; }
   // The dancer's lengths by both cameras, once after each placement.
@@ -90,7 +91,7 @@ class CameraPair {
   std::uint64_t checked_ = 0;  // moments whose spread was looked at
   double recent_spread_ = 0.0, usual_spread_ = 0.0;
   int moves_ = 0;
-  MonoTime settled_at_, now_;
+  MonoTime now_;
   std::optional<PairPlacement> placement_;
   std::optional<BodyLengths> new_lengths_;
   bool has_told_lengths_ = false;

@@ -33,7 +33,6 @@ class EpipolarFit {
   double cost() const { return cost_; }
   // Standard deviations of what was found; errors of a network last, and are not independent.
   double turn_sd_rad() const { return sd_.head<3>().norm(); }
-  double way_sd_rad() const { return sd_.segment<2>(3).norm(); }
   double later_sd_s() const { return sd_[5]; }
 
  private:

@@ -26,7 +26,6 @@ class MultiView {
   explicit MultiView(const Pinhole& first) : first_(first) {}
   // At most kMostOtherViews; they are counted from 0.
   void add_camera(const Pinhole& camera);
-  std::size_t count() const { return others_.size(); }
 
   void see_other(std::size_t camera, const BodyLandmarks& body);
   // The views that belong to this picture of the first camera; good until the next call.

@@ -32,7 +32,6 @@ class ViewHistory {
   bool add(const ViewPoints& points);
   bool at(MonoTime time, ViewMoment& out) const;
   const ViewPoints* newest() const { return count_ > 0 ? &entry(count_ - 1) : nullptr; }
-  void clear() { count_ = 0; }
 
  private:
   // 0 is the oldest.

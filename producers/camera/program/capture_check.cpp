@@ -51,11 +51,7 @@ Result<std::unique_ptr<CaptureCheck>> CaptureCheck::open(const CaptureOptions& o
 }
 
 void CaptureCheck::open_estimator() {
-  EstimatorOptions seeing;
-  seeing.model = options_.model;
-  seeing.engine = options_.engine;
-  seeing.models_folder = options_.models_folder;
-  auto opened = PoseEstimator::open(seeing);
+  auto opened = PoseEstimator::open(networks_of(options_));
   if (opened)
     estimator_ = std::move(*opened);
   else

@@ -66,6 +66,14 @@ struct CaptureOptions {
 
 // The mode that --size, --hz and --format ask for.
 Result<CameraWish> camera_wish(const CaptureOptions& options);
+// The network that sees the dancers, and what runs it; who is followed is another matter.
+inline EstimatorOptions networks_of(const CaptureOptions& options) {
+  EstimatorOptions networks;
+  networks.model = options.model;
+  networks.engine = options.engine;
+  networks.models_folder = options.models_folder;
+  return networks;
+}
 // The person that --follow selects, in a picture of this size.
 Result<FollowOptions> follow_options(const CaptureOptions& options, int width_px, int height_px);
 // Who dance, and how tall each of them is (0: not told); an error where that does not fit together,

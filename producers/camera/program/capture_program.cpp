@@ -44,7 +44,7 @@ nlohmann::ordered_json also_json(const OtherCameras& others) {
                                {"moves", camera.moves}};
     if (const auto& placement = camera.placement) {
       const RelativePose& pose = placement->pose;
-      const Eigen::Vector3d p_m = -(pose.R_BA.transpose() * pose.p_BA) * placement->baseline_m;
+      const Eigen::Vector3d p_m = placement->p_AB_m();
       const Eigen::Quaterniond R_AB(pose.R_BA.transpose());
       one["p_AB_m"] = {p_m.x(), p_m.y(), p_m.z()};
       one["R_AB_xyzw"] = {R_AB.x(), R_AB.y(), R_AB.z(), R_AB.w()};
@@ -68,7 +68,6 @@ Result<std::unique_ptr<CaptureProgram>> CaptureProgram::open(const CaptureOption
   if (auto stops = program->poller_->stop_on_signals(); !stops)
     return tl::make_unexpected(stops.error());
   DANCE_TRY(program->input_, CaptureInput::open(options));
-  // First what fails without side effects; a recording creates files.
   DANCE_TRY(program->preview_,
             open_preview(options, PreviewSide::kAsTheStageShows,
                          program->names() + " before " + program->input_->name()));
@@ -78,13 +77,18 @@ Result<std::unique_ptr<CaptureProgram>> CaptureProgram::open(const CaptureOption
 }
 
 Result<void> CaptureProgram::open_chain() {
-  EstimatorOptions seeing;
-  seeing.model = options_.model;
-  seeing.engine = options_.engine;
-  seeing.models_folder = options_.models_folder;
+  // First what fails without side effects; a recording creates files.
+  if (input_->cameras() > 1 && dancers_.size() > 1)
+    return fail("a stereo camera sees one dancer; name one guest");
+  if (input_->cameras() > 1 && !options_.also.empty())
+    return fail("--also and a stereo camera: give one of them");
+  EstimatorOptions seeing = networks_of(options_);
   DANCE_TRY(seeing.follow,
             follow_options(options_, input_->format().width_px, input_->format().height_px));
   DANCE_TRY(auto source, open_landmark_source(seeing, dancers_.size()));
+  if (!options_.also.empty()) {
+    DANCE_TRY(others_, OtherCameras::open(options_, input_->camera()));
+  }
   DANCE_TRY(bus_, Bus::open(options_.bus));
   bus_sink_ = std::make_unique<PortCaptureSink>(*bus_);
   CaptureSink* sink = bus_sink_.get();
@@ -93,18 +97,12 @@ Result<void> CaptureProgram::open_chain() {
               CaptureRecording::create(options_.record_folder, input_->format().hz, *sink));
     sink = recording_.get();
   }
-  if (input_->cameras() > 1 && dancers_.size() > 1)
-    return fail("a stereo camera sees one dancer; name one guest");
   std::vector<std::unique_ptr<DancerCapture>> dancers;
   for (const WishedDancer& dancer : dancers_)
-    dancers.push_back(std::make_unique<DancerCapture>(dancer.guest, *sink, nullptr));
+    dancers.push_back(std::make_unique<DancerCapture>(dancer.guest, *sink));
   chain_ = std::make_unique<CaptureChain>(std::move(source), std::move(dancers));
   make_solvers();
-  if (!options_.also.empty()) {
-    if (input_->cameras() > 1) return fail("--also and a stereo camera: give one of them");
-    DANCE_TRY(others_, OtherCameras::open(options_, input_->camera()));
-    chain_->first().enable_others(*others_);
-  }
+  if (others_) chain_->first().enable_others(*others_);
   if (input_->rig()) chain_->first().enable_stereo(std::make_unique<StereoDepth>(*input_->rig()));
   if (auto opened = open_extras(); !opened) return opened;
   poller_->watch(bus_->fd(), [bus = bus_.get()](MonoTime now) { bus->drain(now); });

@@ -13,12 +13,8 @@ constexpr Duration kSomebodyElse = Duration::s(10);
 
 }  // namespace
 
-DancerCapture::DancerCapture(const GuestId& guest, CaptureSink& sink,
-                             std::unique_ptr<BodySolver> solver)
-    : guest_(guest),
-      sink_(sink),
-      solver_(std::move(solver)),
-      next_sequence_(first_sequence(mono_now())) {}
+DancerCapture::DancerCapture(const GuestId& guest, CaptureSink& sink)
+    : guest_(guest), sink_(sink), next_sequence_(first_sequence(mono_now())) {}
 
 void DancerCapture::see_again(MonoTime now) {
   if (last_seen_.is_set() && now - last_seen_ > kSomebodyElse) {

@@ -30,7 +30,8 @@ struct DancerStats {
 
 class DancerCapture {
  public:
-  DancerCapture(const GuestId& guest, CaptureSink& sink, std::unique_ptr<BodySolver> solver);
+  // Wants a solver before the first picture: use().
+  DancerCapture(const GuestId& guest, CaptureSink& sink);
   // Further cameras, which must outlive it.
   void enable_others(OtherCameras& others) { others_ = &others; }
   void enable_stereo(std::unique_ptr<StereoDepth> stereo) { stereo_ = std::move(stereo); }
@@ -41,7 +42,7 @@ class DancerCapture {
   // Hands and face, after the poses of all dancers.
   void look_closer(const Frame& frame, const BodyLandmarks& seen);
 
-  // Another solver, as pictures have another size.
+  // The solver for pictures of this size.
   void use(std::unique_ptr<BodySolver> solver) { solver_ = std::move(solver); }
   void restart();
 

@@ -46,7 +46,6 @@ BodyLandmarks received(const SentBody& body) {
   return out;
 }
 
-// The n-th value of a list that may be shorter: the last one then.
 }  // namespace
 
 Result<std::unique_ptr<OtherCameras>> OtherCameras::open(const CaptureOptions& options,
@@ -62,10 +61,7 @@ Result<std::unique_ptr<OtherCameras>> OtherCameras::open(const CaptureOptions& o
   SourceOptions wished;
   DANCE_TRY(wished.camera, camera_wish(options));
   wished.play = {true, options.loops, options.hz};
-  EstimatorOptions seeing;
-  seeing.model = options.model;
-  seeing.engine = options.engine;
-  seeing.models_folder = options.models_folder;
+  const EstimatorOptions seeing = networks_of(options);
   for (std::size_t i = 0; i < options.also.size(); ++i) {
     auto camera = std::make_unique<Camera>();
     DANCE_TRY(camera->source, open_frame_source(options.also[i], wished));
@@ -170,8 +166,7 @@ std::vector<OtherCameraReport> OtherCameras::reports() const {
 
 std::string text_of(const PairPlacement& placement) {
   const RelativePose& pose = placement.pose;
-  // Where it stands in the first camera's frame, and where it looks.
-  const Eigen::Vector3d p_AB_m = -(pose.R_BA.transpose() * pose.p_BA) * placement.baseline_m;
+  const Eigen::Vector3d p_AB_m = placement.p_AB_m();
   const double turned_rad = std::acos(std::clamp(pose.R_BA(2, 2), -1.0, 1.0));
   std::string text;
   const auto add = [&text](double way_m, const char* less, const char* more) {

@@ -22,13 +22,12 @@ constexpr int kLeastGrowths = 20;
 
 // Those of a dancer who stands on the floor that another has scaled.
 BodyLengths BodyTracking::lengths_on_floor() const {
-  BodyLengths lengths = proportions_.lengths();
+  const BodyLengths lengths = proportions_.lengths();
   if (sets_scale() || options_.height_m || growths_ < kLeastGrowths) return lengths;
   // They were seen with the bones of now.
   const double by = growth_sum_ / growths_ *
                     static_cast<double>(standing_height_m(shape_.skeleton)) / height_of(lengths);
-  for (double& length : lengths) length *= by;
-  return lengths;
+  return scaled(lengths, by);
 }
 
 void BodyTracking::learn_bones(const Observation& seen, const std::optional<DepthHint>& depth,
@@ -145,7 +144,7 @@ void BodyTracking::take_shared() {
   has_placement_ = true;
   // The floor is further away, and so is who stands on it; unless they said how tall they are.
   if (by == 1.0 || sets_scale() || options_.height_m || !is_tracking_) return;
-  grow_by(by, time_);
+  grow_to(scaled(lengths_, by), time_);
 }
 
 // The first who is seen sets the scale, until one is seen whose height was told.
@@ -161,12 +160,6 @@ void BodyTracking::release_scale() {
   if (!shared_ || shared_->scaled_by != this) return;
   shared_->scaled_by = nullptr;
   shared_->is_told = false;
-}
-
-void BodyTracking::grow_by(double by, MonoTime now) {
-  BodyLengths lengths = lengths_;
-  for (double& length : lengths) length *= by;
-  grow_to(lengths, now);
 }
 
 void BodyTracking::tell_shared() {

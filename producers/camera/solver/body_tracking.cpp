@@ -53,7 +53,6 @@ void BodyTracking::set_shape(const BodyLengths& lengths) {
   const std::uint32_t version = shape_.skeleton.version;
   shape_ = options_.height_m && proportions_.is_measured() ? shape_of(lengths, *options_.height_m)
                                                            : shape_of(lengths);
-  height_m_ = height_of(lengths);
   shape_.skeleton.version = version + 1;
 }
 
@@ -258,8 +257,7 @@ void BodyTracking::carry(double seconds, MonoTime) {
   visibility_.follow(blind, seconds);
 }
 
-bool BodyTracking::write(const BodyState& state, const Observation& seen, MonoTime now,
-                         double seconds, Pose& out) {
+bool BodyTracking::write(const BodyState& state, MonoTime now, double seconds, Pose& out) {
   Pose pose = out;
   write_pose(state, pose);
   limit_joints(pose);
@@ -268,12 +266,13 @@ bool BodyTracking::write(const BodyState& state, const Observation& seen, MonoTi
   if (options_.holds_feet)
     feet_.apply(shape_, contacts_, placement_.is_known(), !facing_.is_behind(), seconds, pose);
   if (options_.keeps_above_floor) lift_.apply(shape_, placement_.is_known(), seconds, pose);
+  const Observation seen = merged(problem_);
   if (options_.steadies_hands)
-    hands_.apply(shape_.skeleton, hand_measurement(problem_, pose.p_WH_m.cast<double>()), seconds,
-                 pose);
+    hands_.apply(shape_.skeleton,
+                 hand_measurement(problem_, visibility_of(seen), pose.p_WH_m.cast<double>()),
+                 seconds, pose);
   pose.presence = visibility_.presence();
-  const double visible = problem_.other_count > 0 ? merged(problem_).visible : seen.visible;
-  pose.confidence = static_cast<float>(std::clamp(visible, 0.0, 1.0));
+  pose.confidence = static_cast<float>(std::clamp(seen.visible, 0.0, 1.0));
   pose.capture_time = now;
   if (options_.is_mirrored) mirror(pose);
   normalize(pose);
@@ -317,7 +316,7 @@ bool BodyTracking::solve(const BodyLandmarks& landmarks, const std::optional<Dep
   if (!seen.is_usable && !has_others) {
     if (!is_tracking_) return false;
     carry(seconds, now);
-    return write(motion_.state(), seen, now, seconds, out);
+    return write(motion_.state(), now, seconds, out);
   }
   if (seen.is_usable) claim_scale();
   // A dancer that was detected again a moment later is judged as one that was followed.
@@ -335,7 +334,7 @@ bool BodyTracking::solve(const BodyLandmarks& landmarks, const std::optional<Dep
     learn_camera(seen);
     learn_bones(seen, depth, now);
   }
-  return write(motion_.state(), seen, now, seconds, out);
+  return write(motion_.state(), now, seconds, out);
 }
 
 }  // namespace dance

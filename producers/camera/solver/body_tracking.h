@@ -33,7 +33,7 @@ class BodyTracking {
              OtherViews others);
   void take_lengths(const BodyLengths& lengths);
   const Skeleton& skeleton() const { return shape_.skeleton; }
-  double height_m() const { return height_m_; }
+  double height_m() const { return height_of(lengths_); }
   bool is_settled() const { return proportions_.is_held() && placement_.is_settled(); }
   CameraStand camera_stand() const {
     return {placement_.height_m(), placement_.pitch_rad(), placement_.is_settled(),
@@ -61,7 +61,6 @@ class BodyTracking {
   void tell_shared();
   void claim_scale();
   void release_scale();
-  void grow_by(double by, MonoTime now);
   // The state in W as it is since the placement was `was`.
   void rebase(const CameraPlacement& was, BodyState state);
   void grow_to(const BodyLengths& lengths, MonoTime now);
@@ -70,13 +69,11 @@ class BodyTracking {
   double lowest_sole_m() const;  // of model_
   void forget_shown();
   void look_at_others(OtherViews others, MonoTime now, double seconds);
-  bool write(const BodyState& state, const Observation& seen, MonoTime now, double seconds,
-             Pose& out);
+  bool write(const BodyState& state, MonoTime now, double seconds, Pose& out);
 
   SolverOptions options_;
   Pinhole camera_;
   BodyShape shape_;
-  double height_m_ = 0.0;  // of its lengths
   Proportions proportions_;
   CameraPlacement placement_;
   bool has_placement_ = false;

@@ -116,14 +116,15 @@ bool place_on_all_rays(const FitProblem& problem,
   return place.solve(place_C_m);
 }
 
-SteadyHands::Measurement hand_measurement(const FitProblem& problem, const Vector3d& hips_W_m) {
+SteadyHands::Measurement hand_measurement(const FitProblem& problem,
+                                          const PartVisibility& visibility,
+                                          const Vector3d& hips_W_m) {
   SteadyHands::Measurement measurement;
   const Vector3d eye_W_m = problem.camera->to_W(Vector3d::Zero());
   measurement.eye_W_m = eye_W_m.cast<float>();
   const double across_m =
       std::max(kLeastAcross_m, problem.seen->ray_sd * (hips_W_m - eye_W_m).norm());
   measurement.across_sd_m = static_cast<float>(across_m);
-  const PartVisibility visibility = visibility_of(merged(problem));
   for (std::size_t s = 0; s < 2; ++s) {
     measurement.visibility[s] = static_cast<float>(
         visibility[static_cast<std::size_t>(s == 0 ? Part::kArmLeft : Part::kArmRight)]);

@@ -30,8 +30,10 @@ Observation merged(const FitProblem& problem);
 bool place_on_all_rays(const FitProblem& problem,
                        const std::array<Eigen::Vector3d, kLandmarkCount>& relative_C_m,
                        Eigen::Vector3d& place_C_m);
-// How well each hand's place along the first camera's view is known at `hips_W_m`.
+// How well each hand's place along the first camera's view is known at `hips_W_m`; `visibility` by
+// all cameras.
 SteadyHands::Measurement hand_measurement(const FitProblem& problem,
+                                          const PartVisibility& visibility,
                                           const Eigen::Vector3d& hips_W_m);
 
 }  // namespace dance
