@@ -4,7 +4,8 @@
 // Ownership:    plain values.
 // Threads:      none inside.
 // Failure:      none.
-// Source:       the least distance of two segments: Ericson, Real-Time Collision Detection, 2005, 5.1.9.
+// Source:       the least distance of two segments: Ericson, Real-Time Collision Detection, 2005,
+//               5.1.9.
 #pragma once
 
 #include <Eigen/Core>

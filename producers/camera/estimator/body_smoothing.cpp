@@ -21,7 +21,7 @@ void BodySmoothing::smooth(MonoTime now, bool only_region, SeenBody& body) {
     hz = 1.0 / passed_s;
   }
   last_ = now;
-  const float size_px = 2.0f * (body.next_px[1] - body.next_px[0]).norm();
+  const float size_px = body.size_px();
   const bool has_size = size_px >= kLeastSize_px;
   const double scale = has_size ? 1.0 / size_px : 0.0;
   for (std::size_t i = 0; has_size && i < 2; ++i)

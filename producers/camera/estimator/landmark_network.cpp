@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "producers/camera/region/region_sampler.h"
+
 namespace dance {
 namespace {
 
@@ -12,8 +14,6 @@ constexpr int kNumbersOfPoint = 5;
 constexpr int kHeat_cells = 64;
 constexpr int kReach_cells = 3;
 constexpr float kLeastHeat = 0.5f;
-
-float sigmoid(float x) { return 1.0f / (1.0f + std::exp(-x)); }
 
 }  // namespace
 
@@ -71,20 +71,13 @@ Eigen::Vector2f LandmarkNetwork::refined(std::size_t point, const Eigen::Vector2
 bool LandmarkNetwork::read(SeenBody& out) const {
   constexpr auto kSide = static_cast<float>(kSide_px);
   const std::span<const float> numbers = landmark_numbers(), world = world_numbers();
-  const auto is_finite = [](float value) { return std::isfinite(value); };
   out.presence = presence();
-  if (!is_finite(out.presence) || !std::all_of(numbers.begin(), numbers.end(), is_finite) ||
-      !std::all_of(world.begin(), world.end(), is_finite))
-    return false;
-  const float c = std::cos(region_.turn_rad), s = std::sin(region_.turn_rad);
-  const auto turned = [&](float x, float y) {
-    return Eigen::Vector2f(c * x - s * y, s * x + c * y);
-  };
+  if (!std::isfinite(out.presence) || !all_finite(numbers) || !all_finite(world)) return false;
+  const RegionFrame frame(region_);
   for (std::size_t i = 0; i < kLandmarkCount + 2; ++i) {
     const float* n = numbers.data() + i * kNumbersOfPoint;
     const Eigen::Vector2f at = refined(i, Eigen::Vector2f(n[0], n[1]) / kSide);
-    const Eigen::Vector2f px = Eigen::Vector2f(region_.centre_x_px, region_.centre_y_px) +
-                               region_.side_px * turned(at.x() - 0.5f, at.y() - 0.5f);
+    const Eigen::Vector2f px = frame.in_picture(at);
     if (i >= kLandmarkCount) {
       out.next_px[i - kLandmarkCount] = px;
       continue;
@@ -92,7 +85,7 @@ bool LandmarkNetwork::read(SeenBody& out) const {
     out.image_px[i] = {px.x(), px.y(), n[2] / kSide * region_.side_px};
     out.visibility[i] = sigmoid(n[3]);
     const float* w = world.data() + 3 * i;
-    const Eigen::Vector2f wxy = turned(w[0], w[1]);
+    const Eigen::Vector2f wxy = frame.turned({w[0], w[1]});
     out.world_m[i] = {wxy.x(), wxy.y(), w[2]};
   }
   return true;

@@ -1,7 +1,7 @@
 // LandmarkNetwork: the points of the body of one person, within the region where that person is.
 //
 // Units/frames: as producers/camera/body_landmarks.h says; pixels as
-//               producers/camera/estimator/region_sampler.h has them.
+//               producers/camera/region/picture_region.h has them.
 // Ownership:    owns its network and its memory; after make() it allocates nothing of its own.
 // Threads:      one owner.
 // Failure:      make() gives an Error. read() is false where the network refuses to run or makes
@@ -12,9 +12,10 @@
 
 #include <array>
 #include <memory>
+#include <opencv2/core/mat.hpp>
 
 #include "producers/camera/estimator/pose_engine.h"
-#include "producers/camera/estimator/region_sampler.h"
+#include "producers/camera/region/picture_region.h"
 
 namespace dance {
 
@@ -25,7 +26,17 @@ struct SeenBody {
   std::array<float, kLandmarkCount> visibility{};
   // Middle and edge of the region in which the body will be found next: region_of().
   std::array<Eigen::Vector2f, 2> next_px;
+
+  Eigen::Vector2f place_px(Landmark l) const { return image_px[index_of(l)].head<2>(); }
+  BodyRegion next_region() const { return region_of(next_px[0], next_px[1]); }
+  // How large it is in the picture.
+  float size_px() const { return 2.0f * (next_px[1] - next_px[0]).norm(); }
 };
+inline void write_points(const SeenBody& body, BodyLandmarks& out) {
+  out.image_px = body.image_px;
+  out.world_m = body.world_m;
+  out.visibility = body.visibility;
+}
 
 class LandmarkNetwork {
  public:

@@ -1,7 +1,7 @@
 // PersonDetector: finds people in a whole picture: where their hips are, how large they are and how
 // they are turned.
 //
-// Units/frames: pixels of the whole picture as producers/camera/estimator/region_sampler.h has
+// Units/frames: pixels of the whole picture as producers/camera/region/picture_region.h has
 //               them.
 // Ownership:    owns its network and its memory; after make() it allocates nothing of its own.
 // Threads:      one owner.
@@ -12,11 +12,12 @@
 
 #include <array>
 #include <memory>
+#include <opencv2/core/mat.hpp>
 #include <span>
-#include <vector>
 
+#include "producers/camera/estimator/anchor_boxes.h"
 #include "producers/camera/estimator/pose_engine.h"
-#include "producers/camera/estimator/region_sampler.h"
+#include "producers/camera/region/picture_region.h"
 
 namespace dance {
 
@@ -39,19 +40,10 @@ class PersonDetector {
   static constexpr std::size_t kAnchors = 2254;
   static constexpr std::size_t kNumbers = 12;  // an anchor regresses: a box, and four points
 
-  struct Candidate {
-    float score = 0.0f;
-    std::array<float, kNumbers>
-        at{};  // left, top, right, bottom, then x and y of points; 0…1 of the square
-  };
-
   explicit PersonDetector(std::unique_ptr<PoseEngine> engine);
-  void decode(float least_score);
-  Candidate merge(std::size_t first);
 
   std::unique_ptr<PoseEngine> engine_;
-  std::vector<std::array<float, 2>> anchors_;
-  std::vector<Candidate> candidates_;
+  AnchorBoxes boxes_;
   std::array<SeenPerson, kMostPeople> people_;
 };
 

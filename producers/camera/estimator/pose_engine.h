@@ -9,6 +9,8 @@
 //               are then not to be read. run() allocates nothing of ours.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -35,6 +37,12 @@ constexpr bool kHasXnnpack =
 #else
     false;
 #endif
+
+// Of what a network gives.
+inline float sigmoid(float x) { return 1.0f / (1.0f + std::exp(-x)); }
+inline bool all_finite(std::span<const float> numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](float x) { return std::isfinite(x); });
+}
 
 // What kFastest stands for in this build.
 EngineKind chosen_engine(EngineKind wished);

@@ -99,12 +99,6 @@ bool PoseEstimator::is_exchanged(const Frame& frame, const BodyRegion& seen) {
   return true;
 }
 
-void PoseEstimator::fill(const SeenBody& body, BodyLandmarks& out) {
-  out.image_px = body.image_px;
-  out.world_m = body.world_m;
-  out.visibility = body.visibility;
-}
-
 const BodyLandmarks& PoseEstimator::estimate(const Frame& frame) {
   ++counters_.pictures;
   const MonoTime now = frame.capture_time;
@@ -144,7 +138,7 @@ const BodyLandmarks& PoseEstimator::estimate(const Frame& frame) {
     lose(now);
     return result_;
   }
-  const BodyRegion seen = region_of(body_.next_px[0], body_.next_px[1]);
+  const BodyRegion seen = body_.next_region();
   if (!is_new && options_.follow.refuses_jumps && !target_.is_plausible(seen, now)) {
     ++counters_.refused;
     lose(now);
@@ -154,16 +148,16 @@ const BodyLandmarks& PoseEstimator::estimate(const Frame& frame) {
   if (!is_new && is_exchanged(frame, seen)) return result_;
   last_ns = clock_ns();
   target_.update(seen, now);
-  fill(body_, unfiltered_);
+  write_points(body_, unfiltered_);
   unfiltered_.found = true;
   unfiltered_.is_new = is_new;
   unfiltered_.presence = body_.presence;
   unfiltered_.region = *region;
   smoothing_.smooth(now, !options_.smooths, body_);
   result_ = unfiltered_;
-  if (options_.smooths) fill(body_, result_);
+  if (options_.smooths) write_points(body_, result_);
   nobody_since_.reset();
-  next_region_ = region_of(body_.next_px[0], body_.next_px[1]);
+  next_region_ = body_.next_region();
   if (!(next_region_->side_px >= 1.0f)) lose(now);
   ++counters_.found;
   stage(times_.rest_ns);

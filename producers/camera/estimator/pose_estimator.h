@@ -92,7 +92,6 @@ class PoseEstimator {
   void lose(MonoTime now);
   // True where the body in `seen` is not the target; the next picture tracks the target again.
   bool is_exchanged(const Frame& frame, const BodyRegion& seen);
-  static void fill(const SeenBody& body, BodyLandmarks& out);
   std::int64_t clock_ns() const { return options_.clock_ns ? options_.clock_ns() : 0; }
 
   EstimatorOptions options_;

@@ -12,9 +12,10 @@
 #pragma once
 
 #include <memory>
+#include <opencv2/core/mat.hpp>
 #include <optional>
-#include <vector>
 
+#include "producers/camera/estimator/anchor_boxes.h"
 #include "producers/camera/estimator/pose_engine.h"
 #include "producers/camera/face/face_landmarks.h"
 
@@ -40,18 +41,10 @@ class FaceNetworks {
  private:
   static constexpr std::size_t kNumbers = 16;  // a box, and six points
 
-  struct Candidate {
-    float score = 0.0f;
-    std::array<float, kNumbers> at{};  // left, top, right, bottom, points; 0…1 of the region
-  };
-
   FaceNetworks(std::unique_ptr<PoseEngine> detector, std::unique_ptr<PoseEngine> landmarks);
-  // Those that mean the same face as the surest, weighed by their scores.
-  std::optional<Candidate> surest();
 
   std::unique_ptr<PoseEngine> detector_, landmarks_;
-  std::vector<std::array<float, 2>> anchors_;
-  std::vector<Candidate> candidates_;
+  AnchorBoxes faces_;
 };
 
 }  // namespace dance

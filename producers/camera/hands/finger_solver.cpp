@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "producers/camera/hands/half_turn.h"
+#include "producers/camera/region/half_turn.h"
 
 namespace dance {
 

@@ -1,12 +1,11 @@
 #include "producers/camera/hands/hand_network.h"
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 
-#include "producers/camera/estimator/region_sampler.h"
 #include "producers/camera/estimator/tflite_file.h"
 #include "producers/camera/hands/hand_region.h"
+#include "producers/camera/region/picture_region.h"
+#include "producers/camera/region/region_sampler.h"
 
 namespace dance {
 namespace {
@@ -18,10 +17,6 @@ constexpr float kDepthScale = 0.4f;
 
 constexpr const char* kRecrop = "/hand_recrop.tflite";
 constexpr const char* kLandmarks = "/hand_landmark_full.tflite";
-
-bool all_finite(std::span<const float> numbers) {
-  return std::all_of(numbers.begin(), numbers.end(), [](float x) { return std::isfinite(x); });
-}
 
 }  // namespace
 
@@ -62,7 +57,7 @@ std::optional<BodyRegion> HandNetworks::recrop(const cv::Mat& picture, const Bod
   const std::span<const float> n = recrop_->output(0);
   const BodyRegion region = hand_region_between(searched, Eigen::Vector2f(n[0], n[1]) / kSide,
                                                 Eigen::Vector2f(n[2], n[3]) / kSide);
-  if (!(region.side_px >= 1.0f) || region.side_px > 100.0f * searched.side_px) return std::nullopt;
+  if (!is_usable(region, searched)) return std::nullopt;
   return region;
 }
 
@@ -75,15 +70,12 @@ bool HandNetworks::look(const cv::Mat& picture, const BodyRegion& region, HandLa
   if (!all_finite(points) || !all_finite(world) || !(out.presence > kLeastPresence)) return false;
   out.region = region;
   constexpr auto kSide = static_cast<float>(kHandSide_px);
-  const float c = std::cos(region.turn_rad), s = std::sin(region.turn_rad);
+  read_points(region, points, kSide, kSide * kDepthScale, out.image_px);
+  const RegionFrame frame(region);
   for (std::size_t i = 0; i < kHandPointCount; ++i) {
-    const float* n = points.data() + 3 * i;
-    const float x = n[0] / kSide - 0.5f, y = n[1] / kSide - 0.5f;
-    out.image_px[i] = {region.centre_x_px + region.side_px * (c * x - s * y),
-                       region.centre_y_px + region.side_px * (s * x + c * y),
-                       region.side_px * n[2] / (kSide * kDepthScale)};
     const float* w = world.data() + 3 * i;
-    out.world_m[i] = {c * w[0] - s * w[1], s * w[0] + c * w[1], w[2]};
+    const Eigen::Vector2f across = frame.turned({w[0], w[1]});
+    out.world_m[i] = {across.x(), across.y(), w[2]};
   }
   out.found = true;
   return true;

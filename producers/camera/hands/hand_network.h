@@ -11,6 +11,7 @@
 #pragma once
 
 #include <memory>
+#include <opencv2/core/mat.hpp>
 #include <optional>
 
 #include "producers/camera/estimator/pose_engine.h"

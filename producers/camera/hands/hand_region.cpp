@@ -1,10 +1,11 @@
 #include "producers/camera/hands/hand_region.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
-#include "producers/camera/estimator/region_sampler.h"
-#include "producers/camera/hands/half_turn.h"
-#include "producers/camera/hands/tracked_region.h"
+#include "producers/camera/region/half_turn.h"
+#include "producers/camera/region/picture_region.h"
+#include "producers/camera/region/tracked_region.h"
 
 namespace dance {
 
@@ -14,17 +15,11 @@ using Eigen::Vector3f;
 namespace {
 
 constexpr float kLeastVisibility = 0.1f;  // of the wrist
-constexpr float kUp = 0.1f;
 constexpr float kSearchScale = 2.7f, kNextScale = 2.0f;
 // What the hand of the last picture may differ from the re-crop network's.
 constexpr TrackingLimits kSameHand{radians(40.0f), 0.2f, 0.4f, -0.1f};
 
 }  // namespace
-
-BodyRegion moved_region(const Vector2f& middle_px, float side_px, float turn_rad, float scale) {
-  const Vector2f middle = middle_px + turned({0.0f, -kUp * side_px}, turn_rad);
-  return {middle.x(), middle.y(), scale * side_px, turn_rad};
-}
 
 std::optional<BodyRegion> hand_region_of(const BodyLandmarks& body, HandSide side) {
   const bool is_left = side == HandSide::kLeft;
@@ -44,11 +39,9 @@ std::optional<BodyRegion> hand_region_of(const BodyLandmarks& body, HandSide sid
 
 BodyRegion hand_region_between(const BodyRegion& searched, const Vector2f& middle,
                                const Vector2f& edge) {
-  const auto in_picture = [&](const Vector2f& share) -> Vector2f {
-    return centre_of(searched) +
-           searched.side_px * turned(share - Vector2f(0.5f, 0.5f), searched.turn_rad);
-  };
-  const Vector2f middle_px = in_picture(middle), to_edge_px = in_picture(edge) - middle_px;
+  const RegionFrame frame(searched);
+  const Vector2f middle_px = frame.in_picture(middle),
+                 to_edge_px = frame.in_picture(edge) - middle_px;
   // Its second point lies below the middle, where the other networks' are above.
   const float turn =
       within_half_turns(-0.5f * kHalfTurn_rad - std::atan2(-to_edge_px.y(), to_edge_px.x()));
@@ -61,15 +54,12 @@ BodyRegion hand_region_around(std::span<const Vector3f, kHandPointCount> image_p
   const auto at = [&](std::size_t i) -> Vector2f { return image_px[i].head<2>(); };
   const Vector2f knuckles = 0.5f * (0.5f * (at(kHandIndex) + at(kHandRing)) + at(kHandMiddle));
   const float turn = turn_from_up(knuckles - at(kHandWrist));
-  Vector2f low = turned(at(kPalm[0]), -turn), high = low;
-  for (const std::size_t i : kPalm) {
-    const Vector2f p = turned(at(i), -turn);
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  const Vector2f size = high - low;
-  const Vector2f middle = turned(0.5f * (low + high), turn) + turned({0.0f, -kUp * size.y()}, turn);
-  return {middle.x(), middle.y(), kNextScale * size.maxCoeff(), turn};
+  Eigen::AlignedBox2f box;  // upright
+  for (const std::size_t i : kPalm) box.extend(turned(at(i), -turn));
+  const Vector2f size = box.sizes();
+  BodyRegion next = moved_region(turned(box.center(), turn), size.y(), turn, 1.0f);
+  next.side_px = kNextScale * size.maxCoeff();
+  return next;
 }
 
 bool is_same_hand(std::span<const Vector3f, kHandPointCount> image_px, const BodyRegion& around,

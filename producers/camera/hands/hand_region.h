@@ -15,9 +15,6 @@
 
 namespace dance {
 
-// A square whose upper edge is at the angle `up`, moved up by a tenth of its side and then scaled.
-BodyRegion moved_region(const Eigen::Vector2f& middle_px, float side_px, float turn_rad,
-                        float scale);
 // In which the re-crop network searches.
 std::optional<BodyRegion> hand_region_of(const BodyLandmarks& body, HandSide side);
 // Two points that the re-crop network gives in the region: the middle, and where the edge is.

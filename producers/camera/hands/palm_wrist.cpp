@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/motion/joint_limits.h"
-#include "producers/camera/hands/half_turn.h"
+#include "producers/camera/region/half_turn.h"
 
 namespace dance {
 

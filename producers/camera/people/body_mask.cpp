@@ -41,18 +41,15 @@ constexpr float kSeen = 0.3f;
 }  // namespace
 
 void BodyMask::begin(const BodyRegion& region) {
-  region_ = region;
+  frame_ = RegionFrame(region);
   scale_ = static_cast<float>(kSide_px) / std::max(1.0f, region.side_px);
-  cos_ = std::cos(region.turn_rad);
-  sin_ = std::sin(region.turn_rad);
   if (!is_empty_) is_masked_.fill(false);
   is_empty_ = true;
 }
 
 Eigen::Vector2f BodyMask::place(const Eigen::Vector2f& p_px) const {
-  const float x = p_px.x() - region_.centre_x_px, y = p_px.y() - region_.centre_y_px;
   constexpr float kHalf = 0.5f * static_cast<float>(kSide_px);
-  return {kHalf + scale_ * (cos_ * x + sin_ * y), kHalf + scale_ * (cos_ * y - sin_ * x)};
+  return Eigen::Vector2f(kHalf, kHalf) + scale_ * frame_.offset(p_px);
 }
 
 void BodyMask::fill(const Eigen::Vector2f& a, const Eigen::Vector2f& b, float radius) {
@@ -78,8 +75,8 @@ void BodyMask::fill(const Eigen::Vector2f& a, const Eigen::Vector2f& b, float ra
 }
 
 void BodyMask::add(const SeenBody& body) {
-  const float measure = 2.0f * (body.next_px[1] - body.next_px[0]).norm() * scale_;
-  const auto at = [&](Landmark l) { return place(body.image_px[index_of(l)].head<2>()); };
+  const float measure = body.size_px() * scale_;
+  const auto at = [&](Landmark l) { return place(body.place_px(l)); };
   for (const Bar& bar : kBars)
     if (std::min(body.visibility[index_of(bar.from)], body.visibility[index_of(bar.to)]) > kSeen)
       fill(at(bar.from), at(bar.to), bar.radius * measure);

@@ -38,8 +38,8 @@ class BodyMask {
   std::optional<Eigen::Vector3f> mean(std::span<const float> pixels, int from, int to, int y) const;
   void paint_run(std::span<float> pixels, int from, int to, int y) const;
 
-  BodyRegion region_;
-  float scale_ = 1.0f, cos_ = 1.0f, sin_ = 0.0f;
+  RegionFrame frame_{BodyRegion()};
+  float scale_ = 1.0f;
   bool is_empty_ = true;
   std::array<bool, static_cast<std::size_t>(kSide_px) * kSide_px> is_masked_{};
 };

@@ -41,13 +41,7 @@ constexpr float kClearly = 1.5f;
 // A forearm or shank that is so much longer than ever ends in the other's hand or foot.
 constexpr float kTooLong = 0.2f;
 
-Eigen::Vector2f place_px(const SeenBody& body, Landmark l) {
-  return body.image_px[index_of(l)].head<2>();
-}
-
-float measure_px(const SeenBody& body) {
-  return std::max(1.0f, 2.0f * (body.next_px[1] - body.next_px[0]).norm());
-}
+float measure_px(const SeenBody& body) { return std::max(1.0f, body.size_px()); }
 
 std::array<Landmark, 2> ends_of(std::size_t limb) {
   return {kLimbPoints[limb].middle, kLimbPoints[limb].end};
@@ -61,17 +55,17 @@ bool is_seen(const SeenBody& body, std::size_t limb) {
 
 std::array<float, 2> lengths_of(const SeenBody& body, std::size_t limb) {
   const LimbPoints& points = kLimbPoints[limb];
-  const Eigen::Vector2f middle = place_px(body, points.middle);
+  const Eigen::Vector2f middle = body.place_px(points.middle);
   const float measure = measure_px(body);
-  return {(middle - place_px(body, points.root)).norm() / measure,
-          (place_px(body, points.end) - middle).norm() / measure};
+  return {(middle - body.place_px(points.root)).norm() / measure,
+          (body.place_px(points.end) - middle).norm() / measure};
 }
 
 // Inside the quadrangle of shoulders and hips.
 bool is_before_trunk(const SeenBody& body, const Eigen::Vector2f& p) {
   const std::array<Eigen::Vector2f, 4> corner{
-      place_px(body, Landmark::kLeftShoulder), place_px(body, Landmark::kRightShoulder),
-      place_px(body, Landmark::kRightHip), place_px(body, Landmark::kLeftHip)};
+      body.place_px(Landmark::kLeftShoulder), body.place_px(Landmark::kRightShoulder),
+      body.place_px(Landmark::kRightHip), body.place_px(Landmark::kLeftHip)};
   int left = 0, right = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     const Eigen::Vector2f side = corner[(i + 1) % 4] - corner[i], to = p - corner[i];
@@ -99,15 +93,15 @@ float cost_of(const LimbClaimant& own, const SeenBody& other, std::size_t limb, 
     const LimbMotion::Ends expected = own.motion->expected(body, limb, now);
     const auto ends = ends_of(limb);
     for (std::size_t i = 0; i < 2; ++i) {
-      const float off = (place_px(body, ends[i]) - expected.place_px[i]).norm() /
-                        (kExpectedSd * measure_px(body));
+      const float off =
+          (body.place_px(ends[i]) - expected.place_px[i]).norm() / (kExpectedSd * measure_px(body));
       cost += std::min(off * off, kMostTerm);
     }
     const auto longer = own.motion->excess(body, limb);
     const float excess = std::max(longer[0], longer[1]) / kExcessSd;
     cost += std::min(excess * excess, kMostTerm);
   }
-  if (!own.is_in_front && is_before_trunk(other, place_px(body, kLimbPoints[limb].end)))
+  if (!own.is_in_front && is_before_trunk(other, body.place_px(kLimbPoints[limb].end)))
     cost += kBehindTrunk;
   return cost;
 }
@@ -117,7 +111,7 @@ bool are_one(const SeenBody& a, std::size_t limb_a, const SeenBody& b, std::size
   const auto ends_a = ends_of(limb_a), ends_b = ends_of(limb_b);
   float sum = 0.0f;
   for (std::size_t i = 0; i < 2; ++i) {
-    const float apart = (place_px(a, ends_a[i]) - place_px(b, ends_b[i])).norm() / measure;
+    const float apart = (a.place_px(ends_a[i]) - b.place_px(ends_b[i])).norm() / measure;
     if (apart > kSameEach) return false;
     sum += apart;
   }
@@ -128,10 +122,10 @@ bool are_one(const SeenBody& a, std::size_t limb_a, const SeenBody& b, std::size
 bool ends_in(const LimbClaimant& own, const SeenBody& other, std::size_t limb, MonoTime now) {
   if (!own.motion->is_known(limb, now) || !(own.motion->excess(*own.body, limb)[1] > kTooLong))
     return false;
-  const Eigen::Vector2f end = place_px(*own.body, kLimbPoints[limb].end);
+  const Eigen::Vector2f end = own.body->place_px(kLimbPoints[limb].end);
   const std::size_t kind = limb / 2 * 2;
   for (std::size_t theirs = kind; theirs < kind + 2; ++theirs)
-    if ((place_px(other, kLimbPoints[theirs].end) - end).norm() < kSameEach * measure_px(other))
+    if ((other.place_px(kLimbPoints[theirs].end) - end).norm() < kSameEach * measure_px(other))
       return true;
   return false;
 }
@@ -172,10 +166,10 @@ void LimbMotion::update(const SeenBody& body, MonoTime now) {
     Limb& limb = limbs_[i];
     const auto passed_s = static_cast<float>((now - limb.seen).as_seconds());
     const bool is_next = limb.pictures > 0 && passed_s > 0.0f && passed_s < 0.25f;
-    const Eigen::Vector2f root = place_px(body, kLimbPoints[i].root);
+    const Eigen::Vector2f root = body.place_px(kLimbPoints[i].root);
     const auto ends = ends_of(i);
     for (std::size_t e = 0; e < 2; ++e) {
-      const Eigen::Vector2f is = (place_px(body, ends[e]) - root) / measure;
+      const Eigen::Vector2f is = (body.place_px(ends[e]) - root) / measure;
       Eigen::Vector2f& speed = limb.speed.place_px[e];
       if (is_next)
         speed += kLimbSpeedWeight * ((is - limb.place.place_px[e]) / passed_s - speed);
@@ -203,7 +197,7 @@ LimbMotion::Ends LimbMotion::expected(const SeenBody& body, std::size_t limb, Mo
   Ends ends;
   for (std::size_t e = 0; e < 2; ++e)
     ends.place_px[e] =
-        place_px(body, kLimbPoints[limb].root) +
+        body.place_px(kLimbPoints[limb].root) +
         measure_px(body) * (known.place.place_px[e] + going_s * known.speed.place_px[e]);
   return ends;
 }

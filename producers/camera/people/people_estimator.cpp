@@ -34,9 +34,7 @@ std::span<const BodyLandmarks> PeopleEstimator::estimate(const Frame& frame,
     out.is_new = person.is_new;
     out.presence = person.body.presence;
     out.region = person.region;
-    out.image_px = person.body.image_px;
-    out.world_m = person.body.world_m;
-    out.visibility = person.body.visibility;
+    write_points(person.body, out);
   }
   return all;
 }

@@ -13,20 +13,15 @@ constexpr float kMostEvidence = 4.0f, kLeastSum = -1.0f, kExchange = 4.0f;
 constexpr float kDoubtful = 3.0f, kMostDoubt = 4.0f, kRefused = 8.0f;
 constexpr Duration kCompany = Duration::s(3);
 
-BodyRegion region_of_next(const SeenBody& body) {
-  return region_of(body.next_px[0], body.next_px[1]);
-}
-
 }  // namespace
 
 float PeopleTracker::distance(std::size_t a, std::size_t b, MonoTime now) const {
   const auto middle = [&](std::size_t i) {
-    return found_[i].is_found ? centre_of(region_of_next(found_[i].body))
+    return found_[i].is_found ? centre_of(found_[i].body.next_region())
                               : tracks_[i].expected_px(now);
   };
   const auto side = [&](std::size_t i) {
-    return found_[i].is_found ? region_of_next(found_[i].body).side_px
-                              : tracks_[i].region().side_px;
+    return found_[i].is_found ? found_[i].body.next_region().side_px : tracks_[i].region().side_px;
   };
   return (middle(a) - middle(b)).norm() / std::max(1.0f, std::min(side(a), side(b)));
 }

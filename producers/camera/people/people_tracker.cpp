@@ -39,25 +39,17 @@ constexpr Landmark kJoints[]{
     Landmark::kLeftHip,      Landmark::kRightHip,      Landmark::kLeftKnee,  Landmark::kRightKnee,
     Landmark::kLeftAnkle,    Landmark::kRightAnkle};
 
-float measure_of(const SeenBody& body) {
-  return std::max(1.0f, 2.0f * (body.next_px[1] - body.next_px[0]).norm());
-}
-
 bool are_one_body(const SeenBody& a, const SeenBody& b) {
   float sum = 0.0f;
   for (const Landmark l : kJoints)
     sum += (a.image_px[index_of(l)] - b.image_px[index_of(l)]).head<2>().norm();
   return sum / static_cast<float>(std::size(kJoints)) <
-         kSameBody * std::min(measure_of(a), measure_of(b));
+         kSameBody * std::max(1.0f, std::min(a.size_px(), b.size_px()));
 }
 
 float lowest_px(const SeenBody& body) {
   return std::max(body.image_px[index_of(Landmark::kLeftAnkle)].y(),
                   body.image_px[index_of(Landmark::kRightAnkle)].y());
-}
-
-BodyRegion region_after(const SeenBody& body) {
-  return region_of(body.next_px[0], body.next_px[1]);
 }
 
 }  // namespace
@@ -96,13 +88,13 @@ bool PeopleTracker::read(PeopleVision& vision, const BodyRegion& region, ReadBod
   std::size_t count = 0;
   for (std::size_t i = 0; i < options_.people; ++i) {
     const SeenBody* other = present(i);
-    if (other && (centre_of(region_after(*other)) - centre_of(region)).norm() <
+    if (other && (centre_of(other->next_region()) - centre_of(region)).norm() <
                      kOverlap_sides * region.side_px)
       others[count++] = other;
   }
   return vision.read(region, std::span(others.data(), count), out) &&
          out.body.presence > options_.least_presence &&
-         region_after(out.body).side_px >= kLeastSide_px;
+         out.body.next_region().side_px >= kLeastSide_px;
 }
 
 std::array<std::size_t, kMostDancers> PeopleTracker::from_front() const {
@@ -131,7 +123,7 @@ void PeopleTracker::read_tracked(PeopleVision& vision, MonoTime now, const Reads
     if (now - tracks_[i].seen() > options_.probe_for) tracks_[i].lose();
     const std::optional<BodyRegion> region = tracks_[i].next();
     if (!reads[i] || !region) continue;
-    if (read(vision, *region, seen) && tracks_[i].is_plausible(region_after(seen.body), now))
+    if (read(vision, *region, seen) && tracks_[i].is_plausible(seen.body.next_region(), now))
       take(i, *region, seen, false);
     else
       tracks_[i].lose();
@@ -148,7 +140,7 @@ void PeopleTracker::separate_duplicates(PeopleVision& vision, MonoTime now) {
       ++counters_.duplicates;
       const auto against = [&](std::size_t i) {
         const SeenBody& body = found_[i].body;
-        const BodyRegion is = region_after(body);
+        const BodyRegion is = body.next_region();
         const float off = (centre_of(is) - tracks_[i].expected_px(now)).norm() /
                           (kPlaceSd_sides * std::max(1.0f, tracks_[i].region().side_px));
         const float look = tracks_[i].look.is_known()
@@ -214,7 +206,7 @@ void PeopleTracker::probe_missing(PeopleVision& vision, MonoTime now, const Read
     region.centre_y_px = expected.y();
     if (const auto middle_px = middle_of_colours(vision, i, region))
       region.centre_x_px = *middle_px;
-    if (!read(vision, region, seen) || !track.is_plausible(region_after(seen.body), now) ||
+    if (!read(vision, region, seen) || !track.is_plausible(seen.body.next_region(), now) ||
         is_of_somebody(seen.body))
       continue;
     if (track.look.is_known()) {
@@ -255,7 +247,7 @@ std::size_t PeopleTracker::find_candidates(PeopleVision& vision, std::size_t wan
     for (std::size_t i = 0; i < options_.people; ++i) {
       const SeenBody* other = present(i);
       is_tracked = is_tracked ||
-                   (other && (centre_of(region_after(*other)) - centre_of(person.region)).norm() <
+                   (other && (centre_of(other->next_region()) - centre_of(person.region)).norm() <
                                  kSame_sides * person.region.side_px);
     }
     if (is_tracked) continue;
@@ -267,7 +259,7 @@ std::size_t PeopleTracker::find_candidates(PeopleVision& vision, std::size_t wan
         candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(count),
         [&](const Candidate& c) { return are_one_body(c.seen.body, candidate.seen.body); });
     if (is_double) continue;
-    candidate.region = region_after(candidate.seen.body);
+    candidate.region = candidate.seen.body.next_region();
     candidate.look = look_of(candidate.seen.body, vision);
     ++count;
   }

@@ -3,7 +3,7 @@
 //
 //   the region of each → its body → whose body it is → whose limbs they are → next regions
 //
-// Units/frames: pixels as producers/camera/estimator/region_sampler.h has them; times are those of
+// Units/frames: pixels as producers/camera/region/picture_region.h has them; times are those of
 //               the frames.
 // Ownership:    plain value, no heap.
 // Threads:      one owner.

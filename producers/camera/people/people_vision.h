@@ -2,7 +2,7 @@
 // a region, and the colour at a place. Implemented by the networks (network_vision.h) and, for
 // tests and evaluations, by drawn scenes of known truth.
 //
-// Units/frames: pixels as producers/camera/estimator/region_sampler.h has them; colours are luma,
+// Units/frames: pixels as producers/camera/region/picture_region.h has them; colours are luma,
 //               blue and red difference, each 0…1.
 // Ownership:    what find() returns is good until the next call of find().
 // Threads:      one owner.

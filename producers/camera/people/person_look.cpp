@@ -33,10 +33,6 @@ struct Samples {
   }
 };
 
-Eigen::Vector2f place_of(const SeenBody& body, Landmark landmark) {
-  return body.image_px[index_of(landmark)].head<2>();
-}
-
 bool is_visible(const SeenBody& body, Landmark landmark) {
   return body.visibility[index_of(landmark)] > kLeastVisibility;
 }
@@ -44,7 +40,7 @@ bool is_visible(const SeenBody& body, Landmark landmark) {
 void sample_limb(const SeenBody& body, Landmark from, Landmark to, PeopleVision& vision,
                  Samples& samples) {
   if (!is_visible(body, from) || !is_visible(body, to)) return;
-  const Eigen::Vector2f a = place_of(body, from), b = place_of(body, to);
+  const Eigen::Vector2f a = body.place_px(from), b = body.place_px(to);
   for (const float share : {0.25f, 0.4f, 0.55f, 0.7f, 0.85f})
     samples.add(vision.colour(a + share * (b - a)));
 }
@@ -56,11 +52,11 @@ void sample_trunk(const SeenBody& body, PeopleVision& vision, Samples& samples) 
   for (const float down : {0.2f, 0.35f, 0.5f, 0.65f, 0.8f})
     for (const float aside : {0.2f, 0.4f, 0.6f, 0.8f}) {
       const Eigen::Vector2f left =
-          place_of(body, Landmark::kLeftShoulder) +
-          down * (place_of(body, Landmark::kLeftHip) - place_of(body, Landmark::kLeftShoulder));
+          body.place_px(Landmark::kLeftShoulder) +
+          down * (body.place_px(Landmark::kLeftHip) - body.place_px(Landmark::kLeftShoulder));
       const Eigen::Vector2f right =
-          place_of(body, Landmark::kRightShoulder) +
-          down * (place_of(body, Landmark::kRightHip) - place_of(body, Landmark::kRightShoulder));
+          body.place_px(Landmark::kRightShoulder) +
+          down * (body.place_px(Landmark::kRightHip) - body.place_px(Landmark::kRightShoulder));
       samples.add(vision.colour(left + aside * (right - left)));
     }
 }

@@ -31,7 +31,7 @@ bool PersonTrack::is_plausible(const BodyRegion& region, MonoTime now) const {
 }
 
 void PersonTrack::update(const SeenBody& body, MonoTime now) {
-  const BodyRegion is = region_of(body.next_px[0], body.next_px[1]);
+  const BodyRegion is = body.next_region();
   if (is_begun_ && now > seen_) {
     const auto passed_s = static_cast<float>((now - seen_).as_seconds());
     const Eigen::Vector2f speed = (centre_of(is) - centre_of(region_)) / passed_s;
@@ -44,7 +44,7 @@ void PersonTrack::update(const SeenBody& body, MonoTime now) {
   is_begun_ = true;
   SeenBody steadied = body;
   smoothing_.smooth(now, true, steadied);
-  next_ = region_of(steadied.next_px[0], steadied.next_px[1]);
+  next_ = steadied.next_region();
   if (!(next_->side_px >= 1.0f)) lose();
 }
 

@@ -1,7 +1,7 @@
 // PersonTrack: one of several people before a camera: where the network looks for the body next,
 // how it moves in the picture, and what it looks like.
 //
-// Units/frames: pixels as producers/camera/estimator/region_sampler.h has them; times are those of
+// Units/frames: pixels as producers/camera/region/picture_region.h has them; times are those of
 //               the frames.
 // Ownership:    plain value, no heap.
 // Threads:      none inside.

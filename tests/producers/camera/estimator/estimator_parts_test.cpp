@@ -7,8 +7,8 @@
 #include "producers/camera/estimator/body_smoothing.h"
 #include "producers/camera/estimator/identity_switch_detector.h"
 #include "producers/camera/estimator/one_euro.h"
-#include "producers/camera/estimator/region_sampler.h"
 #include "producers/camera/estimator/target_tracker.h"
+#include "producers/camera/region/region_sampler.h"
 
 namespace dance {
 namespace {

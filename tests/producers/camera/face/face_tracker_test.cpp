@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "producers/camera/estimator/pose_estimator.h"
-#include "producers/camera/estimator/region_sampler.h"
 #include "producers/camera/face/face_region.h"
+#include "producers/camera/region/picture_region.h"
 #include "tests/producers/camera/estimator/pose_models.h"
 #include "tests/producers/camera/files/written_pictures.h"
 

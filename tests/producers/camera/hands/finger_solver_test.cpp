@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/base/random.h"
-#include "producers/camera/hands/half_turn.h"
+#include "producers/camera/region/half_turn.h"
 #include "tests/producers/camera/hands/built_hand.h"
 
 namespace dance {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "producers/camera/estimator/region_sampler.h"
-#include "producers/camera/hands/half_turn.h"
+#include "producers/camera/region/half_turn.h"
+#include "producers/camera/region/picture_region.h"
 
 namespace dance {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "producers/camera/hands/half_turn.h"
+#include "producers/camera/region/half_turn.h"
 #include "tests/producers/camera/hands/built_hand.h"
 
 namespace dance {

@@ -15,12 +15,6 @@
 
 namespace dance {
 
-float within_half_turns(float angle_rad);
-Eigen::Vector2f turned(const Eigen::Vector2f& v, float turn_rad);
-// How far the direction is turned from one that points up, or to the right.
-float turn_from_up(const Eigen::Vector2f& direction);
-float turn_from_right(const Eigen::Vector2f& direction);
-
 // What a region may differ from the one that was found, in its sides; and how far points of the
 // last picture may lie outside that.
 struct TrackingLimits {

@@ -1,4 +1,4 @@
-#include "producers/camera/estimator/region_sampler.h"
+#include "producers/camera/region/region_sampler.h"
 
 #ifdef __SSE2__
 #include <emmintrin.h>
@@ -9,13 +9,9 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <numbers>
 
 namespace dance {
 namespace {
-
-// The network sees a little more than the circle about the hips that the body fits in.
-constexpr float kMargin = 1.25f;
 
 // Red, green and blue side by side in one register; the fourth is unused.
 using Colour = float __attribute__((vector_size(16)));
@@ -120,15 +116,6 @@ void sample_region(const cv::Mat& picture, const BodyRegion& region, int size_px
         reading.at_border(x, y, to);
     }
   }
-}
-
-BodyRegion region_of(const Eigen::Vector2f& middle_px, const Eigen::Vector2f& edge_px) {
-  constexpr float kPi = std::numbers::pi_v<float>;
-  const Eigen::Vector2f up = edge_px - middle_px;
-  // 0 where the body stands upright.
-  float turn = 0.5f * kPi - std::atan2(-up.y(), up.x());
-  turn -= 2.0f * kPi * std::floor((turn + kPi) / (2.0f * kPi));
-  return {middle_px.x(), middle_px.y(), 2.0f * kMargin * up.norm(), turn};
 }
 
 }  // namespace dance

@@ -22,12 +22,4 @@ enum class Beyond { kBlack, kNearest };  // what stands beyond the picture
 void sample_region(const cv::Mat& blue_green_red, const BodyRegion& region, int size_px,
                    Beyond beyond, float least, float most, std::span<float> red_green_blue);
 
-inline Eigen::Vector2f centre_of(const BodyRegion& region) {
-  return {region.centre_x_px, region.centre_y_px};
-}
-
-// The region whose middle is `middle`, and whose upper edge `edge` says together with the size: how
-// the networks name a body.
-BodyRegion region_of(const Eigen::Vector2f& middle_px, const Eigen::Vector2f& edge_px);
-
 }  // namespace dance
