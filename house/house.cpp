@@ -149,8 +149,7 @@ Result<void> House::open_link() {
   options.interest = session_.interest;
   options.hearing = session_.hearing;
   options.channels = session_.channels;
-  // The first rule that names a channel counts.
-  options.channels.insert(options.channels.begin(), LinkBus::face_rule());
+  LinkBus::add_face_rule(options.channels);
   options.clock_id = this_clock_id();
   options.quality_m = session_.quality_mm * 1e-3;
   options.file_bytes_per_second = session_.avatar_bytes_per_second;

@@ -91,14 +91,13 @@ Result<void> use_invitation(JoinOptions& options) {
 // A camera sees the first guest, and further ones that are named beside.
 Result<void> put_before_camera(HouseConfig& session, const std::vector<GuestId>& named,
                                const std::string& device) {
-  constexpr std::size_t kMostPartners = 3;
   if (session.guests.empty()) return fail("--camera: who dances? name the guest with --guest");
   HostedCamera camera;
   camera.guest = session.guests.front();
   if (device != "auto") camera.device = device;
   for (const GuestId& guest : named)
     if (guest != camera.guest) camera.partners.push_back({guest, 0.0});
-  if (camera.partners.size() > kMostPartners)
+  if (camera.partners.size() > HostedCamera::kMostPartners)
     return fail("--camera: one camera sees four dancers at most; name fewer guests");
   // Where the session file has one for this guest, another device; a dancer that stands in for the
   // camera makes room.

@@ -55,6 +55,7 @@ struct HostedCamera {
     GuestId guest;
     double height_m = 0.0;
   };
+  static constexpr std::size_t kMostPartners = 3;
   std::vector<Partner> partners;
   std::string device;       // as dance capture takes it; "" = the first camera
   std::string also;         // another camera of the same dancer; "" = none

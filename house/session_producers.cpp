@@ -8,7 +8,6 @@ namespace dance {
 namespace {
 
 constexpr double kLeastHeight_m = 0.8, kMostHeight_m = 2.5;  // of a dancer
-constexpr std::size_t kMostBeforeOneCamera = 4;
 
 // A file's name is taken from the folder of the session file; what a camera is called stays as it
 // is: "auto", "1", "HD Webcam".
@@ -48,7 +47,7 @@ void read_camera(TomlReader& reader, const std::filesystem::path& folder, HouseC
     camera.calibration = (folder / *file).string();
   for (const std::string& partner : reader.strings("partners", "[\"bob\", \"carol=1.65\"]"))
     camera.partners.push_back(read_partner(reader, partner));
-  if (camera.partners.size() >= kMostBeforeOneCamera)
+  if (camera.partners.size() > HostedCamera::kMostPartners)
     reader.complain("partners", "one camera sees four dancers at most");
   camera.height_m = reader.number_or("height", 0.0, 0.0, kMostHeight_m);
   if (camera.height_m != 0.0 && camera.height_m < kLeastHeight_m)

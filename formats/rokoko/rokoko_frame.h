@@ -23,6 +23,7 @@
 #include "core/base/fixed_list.h"
 #include "core/base/fixed_string.h"
 #include "core/pose/bone.h"
+#include "core/pose/mirror.h"
 
 namespace dance {
 
@@ -103,14 +104,6 @@ struct RokokoFrame {
   FixedList<RokokoActor, kMostActors> actors;
 };
 
-// Both ways.
-inline Eigen::Vector3f mirrored(const Eigen::Vector3f& p) { return {-p.x(), p.y(), p.z()}; }
-inline Eigen::Quaternionf mirrored(const Eigen::Quaternionf& q) {
-  Eigen::Quaternionf m = q;
-  m.y() = -m.y();
-  m.z() = -m.z();
-  return m;
-}
 // A joint's rotation away from the T-pose, in W, and back.
 inline Eigen::Quaternionf rokoko_to_W(std::size_t joint, const Eigen::Quaternionf& rotation) {
   return mirrored(rotation * rokoko_t_pose(joint).conjugate());

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/motion/rotation_vector.h"
+#include "core/pose/mirror.h"
 #include "formats/bvh/clip_file.h"
 
 namespace dance {
@@ -73,8 +74,7 @@ std::vector<Pose> trembling(const std::vector<Pose>& poses, double sd_deg, Rando
 PredictTake mirrored(const PredictTake& take) {
   PredictTake out = take;
   for (std::size_t b = 0; b < kBoneCount; ++b) {
-    out.skeleton.offset_m[b] = take.skeleton.offset_m[other_side(b)];
-    out.skeleton.offset_m[b].x() *= -1.0f;
+    out.skeleton.offset_m[b] = mirrored(take.skeleton.offset_m[other_side(b)]);
   }
   for (std::size_t i = 0; i < take.poses.size(); ++i) {
     const Pose& from = take.poses[i];
@@ -82,11 +82,10 @@ PredictTake mirrored(const PredictTake& take) {
     to.presence = 0;
     for (std::size_t b = 0; b < kBoneCount; ++b) {
       const std::size_t o = other_side(b);
-      const Eigen::Quaternionf& q = from.R_PB[o];
-      to.R_PB[b] = Eigen::Quaternionf(q.w(), q.x(), -q.y(), -q.z());
+      to.R_PB[b] = mirrored(from.R_PB[o]);
       to.presence |= (from.presence >> o & 1u) << b;
     }
-    to.p_WH_m.x() *= -1.0f;
+    to.p_WH_m = mirrored(to.p_WH_m);
   }
   return out;
 }

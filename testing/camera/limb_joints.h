@@ -1,5 +1,5 @@
-// The twelve joints of the limbs that evaluations and tests judge: the network's point, and the bone
-// whose origin is the same joint; left and right of each, in this order.
+// The twelve joints of the limbs that evaluations and tests judge: the network's point, and the
+// bone whose origin is the same joint; left and right of each, in this order.
 //
 // Units/frames: metres in W, as core/pose/kinematics.h has it.
 // Ownership:    constants and plain values.

@@ -64,7 +64,7 @@ LinkHandlers LinkBus::handlers() {
   return handlers;
 }
 
-ChannelRule LinkBus::face_rule() {
+void LinkBus::add_face_rule(std::vector<ChannelRule>& rules) {
   ChannelRule rule;
   const auto pattern = ChannelPattern::parse(kFaceChannels);
   DANCE_ASSERT(pattern.has_value());
@@ -73,7 +73,7 @@ ChannelRule LinkBus::face_rule() {
   rule.max_bytes = kMaxFacePayload;
   rule.layout = *LayoutCheck::parse("any");
   rule.rate_hz = kMostFaces_hz;
-  return rule;
+  rules.insert(rules.begin(), rule);
 }
 
 void LinkBus::send_face(const GuestId& guest, const Face& face, MonoTime now) {

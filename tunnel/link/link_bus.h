@@ -45,8 +45,9 @@ class LinkBus {
   // guest is not set.
   void send_signals_of(const GuestId& guest);
   // Faces travel as messages of a further channel, so that no server and no older link has to know
-  // them. To be added to the rules that the link is opened with.
-  static ChannelRule face_rule();
+  // them. To the rules that the link is opened with: in front, as the first that names a channel
+  // counts.
+  static void add_face_rule(std::vector<ChannelRule>& rules);
   // And the channels that the rules let out.
   void send_channels(const std::vector<ChannelRule>& rules);
   // Of the voices that `own` lets in, only those come that a guest of this house wants, while any

@@ -115,8 +115,7 @@ Result<void> run_link(const LinkProgramOptions& given) {
   DANCE_TRY(LinkOptions options, checked(given));
   // Channels come of no guest of whom no pose is wanted.
   const bool lets_any = lets_any_in(options.channels);
-  // The first rule that names a channel counts.
-  options.channels.insert(options.channels.begin(), LinkBus::face_rule());
+  LinkBus::add_face_rule(options.channels);
   const GuestId first = options.guests.empty() ? GuestId() : options.guests[0];
   DANCE_TRY(const LinkKey key, choose_link_key(given.server, options.room, first, given.key));
   DANCE_TRY(const auto server, Address::resolve_all(given.server, kDefaultServerPort));

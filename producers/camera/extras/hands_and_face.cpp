@@ -1,5 +1,6 @@
 #include "producers/camera/extras/hands_and_face.h"
 
+#include "core/pose/mirror.h"
 #include "producers/camera/face/gaze.h"
 
 namespace dance {
@@ -10,6 +11,13 @@ constexpr HandSide other(HandSide side) {
 }
 constexpr Bone hand_bone(HandSide side) {
   return side == HandSide::kLeft ? Bone::kLeftHand : Bone::kRightHand;
+}
+
+// As what belongs to this pose.
+void stamp(auto& message, const Pose& pose, MonoTime time) {
+  message.sequence = pose.sequence;
+  message.clock_id = pose.clock_id;
+  message.capture_time = time;
 }
 
 }  // namespace
@@ -45,7 +53,7 @@ void HandsAndFace::look_at_hand(const Picture& picture, HandSide side) {
   Eigen::Quaternionf R_WPalm = Eigen::Quaternionf(picture.R_WC) * *palm;
   HandSide shown = side;
   if (options_.is_mirrored) {
-    R_WPalm = Eigen::Quaternionf(R_WPalm.w(), R_WPalm.x(), -R_WPalm.y(), -R_WPalm.z());
+    R_WPalm = mirrored(R_WPalm);
     shown = other(side);
   }
   wrists_.see(shown, R_WPalm, solved_[index_of(hand_bone(shown))], hand.trust(), now);
@@ -58,9 +66,7 @@ void HandsAndFace::publish_hands(const Picture& picture) {
   if (!is_any && has_said_relaxed_) return;
   has_said_relaxed_ = !is_any;
   if (options_.is_mirrored) mirror(hands);
-  hands.sequence = picture.pose.sequence;
-  hands.clock_id = picture.pose.clock_id;
-  hands.capture_time = picture.pose.capture_time;
+  stamp(hands, picture.pose, picture.pose.capture_time);
   picture.sink.capture(picture.guest, hands);
 }
 
@@ -75,27 +81,21 @@ void HandsAndFace::publish_face(const Picture& picture) {
   face.R_PB = is_seen
                   ? (rotation_in_W(picture.pose, Bone::kNeck).conjugate() * face.R_PB).normalized()
                   : picture.pose.R_PB[index_of(Bone::kHead)];
-  face.sequence = picture.pose.sequence;
-  face.clock_id = picture.pose.clock_id;
-  face.capture_time = picture.pose.capture_time;
+  stamp(face, picture.pose, picture.pose.capture_time);
   picture.sink.capture_face(picture.guest, face);
 }
 
 void HandsAndFace::rest(MonoTime now, const Pose& last, const GuestId& guest, CaptureSink& sink) {
   if (!has_said_relaxed_) {
     Hands hands;
-    hands.sequence = last.sequence;
-    hands.clock_id = last.clock_id;
-    hands.capture_time = now;
+    stamp(hands, last, now);
     sink.capture(guest, hands);
     has_said_relaxed_ = true;
   }
   if (!has_said_rest_) {
     Face face;
     face.R_PB = last.R_PB[index_of(Bone::kHead)];
-    face.sequence = last.sequence;
-    face.clock_id = last.clock_id;
-    face.capture_time = now;
+    stamp(face, last, now);
     sink.capture_face(guest, face);
     has_said_rest_ = true;
   }

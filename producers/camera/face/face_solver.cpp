@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/median.h"
+#include "core/pose/mirror.h"
 
 namespace dance {
 
@@ -215,8 +216,7 @@ void mirror(Face& face) {
   }
   std::swap(face[Expression::kJawLeft], face[Expression::kJawRight]);
   std::swap(face[Expression::kMouthLeft], face[Expression::kMouthRight]);
-  const Quaternionf& R = face.R_PB;
-  face.R_PB = Quaternionf(R.w(), R.x(), -R.y(), -R.z());
+  face.R_PB = mirrored(face.R_PB);
   face.gaze_rad[0] = -face.gaze_rad[0];
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/smooth_step.h"
+#include "core/pose/mirror.h"
 #include "producers/camera/region/half_turn.h"
 
 namespace dance {
@@ -48,10 +50,10 @@ Quaternionf about(const Vector3f& axis, float angle) {
 // Of a left hand: fingers along x, the back of the hand up, thumb towards z. A right one is its
 // image in the mirror x = 0.
 Vector3f in_left_hand(const Vector3f& in_hand, HandSide side) {
-  return side == HandSide::kLeft ? in_hand : Vector3f(-in_hand.x(), in_hand.y(), in_hand.z());
+  return side == HandSide::kLeft ? in_hand : mirrored(in_hand);
 }
 Quaternionf of_side(const Quaternionf& left, HandSide side) {
-  return side == HandSide::kLeft ? left : Quaternionf(left.w(), left.x(), -left.y(), -left.z());
+  return side == HandSide::kLeft ? left : mirrored(left);
 }
 
 // How far `v` is bent from x towards the palm, −90° to 270°, so that a fist is no bent-back finger.
@@ -161,8 +163,8 @@ void mirror(Hands& hands) {
   constexpr std::size_t kSide = kFingerBoneCount / 2;
   for (std::size_t i = 0; i < kSide; ++i) {
     const Quaternionf left = hands.R_PB[i];
-    hands.R_PB[i] = of_side(hands.R_PB[kSide + i], HandSide::kRight);
-    hands.R_PB[kSide + i] = of_side(left, HandSide::kRight);
+    hands.R_PB[i] = mirrored(hands.R_PB[kSide + i]);
+    hands.R_PB[kSide + i] = mirrored(left);
   }
   constexpr std::uint32_t kBits = (1u << kSide) - 1;
   hands.presence = (hands.presence & kBits) << kSide | (hands.presence >> kSide & kBits);
@@ -194,9 +196,8 @@ void FingerSolver::see(const HandLandmarks& hand, HandSide which, MonoTime now) 
 
 float FingerSolver::share_left(const Side& side, MonoTime now) const {
   if (!side.seen) return 0.0f;
-  const double past_s = (now - *side.seen - kKept).as_seconds() / kRelaxed.as_seconds();
-  const auto x = static_cast<float>(std::clamp(past_s, 0.0, 1.0));
-  return 1.0f - x * x * (3.0f - 2.0f * x);
+  const double past = (now - *side.seen - kKept).as_seconds() / kRelaxed.as_seconds();
+  return 1.0f - smooth_step(static_cast<float>(past));
 }
 
 bool FingerSolver::write(MonoTime now, Hands& out) const {

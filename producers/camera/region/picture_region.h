@@ -1,9 +1,9 @@
 // Turned squares of a picture: from a place in one to a place in the picture, and how networks name
 // them by two points.
 //
-// Units/frames: places in pixels, (0, 0) the left upper corner of the left upper pixel; shares of a
-//               region's side, (0, 0) its left upper corner and (1, 1) its right lower one. y points
-//               down, angles are clockwise.
+// Units/frames: places in pixels, (0, 0) the left upper corner of the left upper pixel; shares of
+//               a region's side, (0, 0) its left upper corner and (1, 1) its right lower one. y
+//               points down, angles are clockwise.
 // Ownership:    plain values.
 // Threads:      none inside.
 // Failure:      none.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/pose/mirror.h"
+
 namespace dance {
 
 using Eigen::Quaterniond;
@@ -105,14 +107,8 @@ void write_pose(const BodyState& state, Pose& pose) {
 }
 
 void mirror(Pose& pose) {
-  // Seen in the mirror x = 0: turns about x stay, those about y and z change their sign.
-  const auto seen = [](Eigen::Quaternionf q) {
-    q.y() = -q.y();
-    q.z() = -q.z();
-    return q;
-  };
-  for (auto& q : pose.R_PB) q = seen(q);
-  pose.p_WH_m.x() = -pose.p_WH_m.x();
+  for (auto& q : pose.R_PB) q = mirrored(q);
+  pose.p_WH_m = mirrored(pose.p_WH_m);
   std::uint32_t presence = pose.presence & ((1u << index_of(Bone::kLeftShoulder)) - 1);
   for (const Bone first : {Bone::kLeftShoulder, Bone::kLeftUpperLeg}) {
     for (std::size_t i = index_of(first); i < index_of(first) + 4; ++i) {

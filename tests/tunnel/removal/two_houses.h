@@ -44,7 +44,7 @@ struct BusHouse {
     LinkOptions options;
     options.room = named("salsa");
     EXPECT_TRUE(options.guests.try_push(key.name));
-    options.channels.push_back(LinkBus::face_rule());
+    LinkBus::add_face_rule(options.channels);
     LinkKey link_key;
     link_key.name = std::string(key.name.view());
     link_key.key = key.key;

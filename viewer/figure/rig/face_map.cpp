@@ -40,16 +40,19 @@ std::array<float, kExpressionCount + kVrmNames.size()> weights_of(const Face& fa
 }  // namespace
 
 FaceMap::FaceMap(const AvatarModel& model) {
+  std::vector<std::string> morphs, expressions;
+  for (const auto& morph : model.morphs) morphs.push_back(plain(morph.name));
+  for (const auto& expression : model.expressions) expressions.push_back(plain(expression.name));
   int found = 0;
   for (std::size_t e = 0; e < kExpressionCount; ++e) {
     const std::string wanted = plain(kExpressionNames[e]);
     const std::size_t before = binds_.size();
-    for (std::size_t m = 0; m < model.morphs.size(); ++m)
-      if (plain(model.morphs[m].name) == wanted)
+    for (std::size_t m = 0; m < morphs.size(); ++m)
+      if (morphs[m] == wanted)
         binds_.push_back({static_cast<std::uint8_t>(e), static_cast<std::uint32_t>(m), 1.0f});
-    for (const AvatarExpression& expression : model.expressions)
-      if (binds_.size() == before && plain(expression.name) == wanted)
-        for (const AvatarExpression::Bind& bind : expression.binds)
+    for (std::size_t x = 0; x < expressions.size(); ++x)
+      if (binds_.size() == before && expressions[x] == wanted)
+        for (const AvatarExpression::Bind& bind : model.expressions[x].binds)
           binds_.push_back({static_cast<std::uint8_t>(e), bind.morph, bind.weight});
     found += binds_.size() > before ? 1 : 0;
   }
