@@ -40,8 +40,8 @@ class ConnectedNatsBus final : public NatsBus {
   ~ConnectedNatsBus() override {
     if (values_) poller_.unwatch(shared_.inbox.fd());
     shared_.set_values(nullptr);
-    // What waits for an answer is told that there will be none.
-    if (connection_) natsConnection_Close(connection_.get());
+    if (values_) values_->end();
+    if (connection_) close_nats(connection_.get());
   }
 
   Result<void> open(const NatsOptions& options) {

@@ -22,6 +22,7 @@ constexpr std::int64_t kConnect_ms = 2000;
 constexpr std::int64_t kPing_ms = 500;
 constexpr int kUnansweredPings = 2;
 constexpr std::int64_t kReconnect_ms = 100;
+constexpr std::int64_t kPass_ms = 300;
 
 Error not_connected(natsStatus status, const NatsOptions& options) {
   const std::string at = shown_urls(options);
@@ -99,6 +100,18 @@ std::optional<Error> set(natsOptions* made, const NatsOptions& options, const Na
 }
 
 }  // namespace
+
+bool reader_has_passed(natsConnection* connection) {
+  return natsConnection_Status(connection) == NATS_CONN_STATUS_CONNECTED &&
+         natsConnection_FlushTimeout(connection, kPass_ms) == NATS_OK;
+}
+
+// The library releases what takes the answers before it ends the thread that hands them over: none
+// may be under way.
+void close_nats(natsConnection* connection) {
+  reader_has_passed(connection);
+  natsConnection_Close(connection);
+}
 
 Result<NatsHandle<natsConnection>> connect_nats(const NatsOptions& options, const NatsCalls& on) {
   // The library says of a wrong file only that the connection ended.

@@ -11,17 +11,13 @@ namespace {
 constexpr std::int64_t kNextValue_ms = 2000;
 constexpr auto kAgrees = std::chrono::seconds(8);
 
-struct StoreDeleter {
-  void operator()(kvWatcher* it) const { kvWatcher_Destroy(it); }
-  void operator()(kvEntry* it) const { kvEntry_Destroy(it); }
-};
-
 class ConnectedNatsStore final : public NatsStore {
  public:
   ConnectedNatsStore(NatsOptions options, NatsHandle<natsConnection> connection, NatsBucket bucket)
       : options_(std::move(options)),
         connection_(std::move(connection)),
         bucket_(std::move(bucket)) {}
+  ~ConnectedNatsStore() override { close_nats(connection_.get()); }
 
   // A bucket whose servers have just lost one answers when they have agreed who leads it now.
   Result<std::map<std::string, std::string>> read_all() override {
@@ -38,14 +34,22 @@ class ConnectedNatsStore final : public NatsStore {
     if (const natsStatus status = kvStore_WatchAll(&made, bucket_.store.get(), nullptr);
         status != NATS_OK)
       return tl::make_unexpected(failure("cannot be read", status));
-    const std::unique_ptr<kvWatcher, StoreDeleter> watcher(made);
+    ended_.emplace_back(made);
+    auto values = read_watched(made);
+    kvWatcher_Stop(made);
+    if (reader_has_passed(connection_.get())) ended_.clear();
+    return values;
+  }
+
+  Result<std::map<std::string, std::string>> read_watched(kvWatcher* watcher) {
     std::map<std::string, std::string> values;
     for (;;) {
       kvEntry* next = nullptr;
-      if (const natsStatus status = kvWatcher_Next(&next, made, kNextValue_ms); status != NATS_OK)
+      if (const natsStatus status = kvWatcher_Next(&next, watcher, kNextValue_ms);
+          status != NATS_OK)
         return tl::make_unexpected(failure("cannot be read", status));
       if (next == nullptr) return values;  // that was all
-      const std::unique_ptr<kvEntry, StoreDeleter> entry(next);
+      const NatsHandle<kvEntry> entry(next);
       if (kvEntry_Operation(next) != kvOp_Put) continue;
       if (values.size() == kMost)
         return tl::make_unexpected(Error{"the bucket '" + options_.bucket +
@@ -101,6 +105,7 @@ class ConnectedNatsStore final : public NatsStore {
   NatsOptions options_;
   NatsHandle<natsConnection> connection_;
   NatsBucket bucket_;
+  std::vector<NatsHandle<kvWatcher>> ended_;  // that the reading thread may still use
 };
 
 }  // namespace

@@ -11,6 +11,8 @@ namespace {
 // of these says so, and the watch begins anew. Well before a dead server's guests are forgotten.
 constexpr std::int64_t kHeartbeat_ns = 1'000'000'000;
 constexpr std::size_t kMostUnwritten = 65'536;
+// Longer than an answer takes where there is one.
+constexpr auto kEnd = std::chrono::milliseconds(500);
 constexpr auto kRetry = std::chrono::milliseconds(100);
 
 }  // namespace
@@ -18,23 +20,29 @@ constexpr auto kRetry = std::chrono::milliseconds(100);
 Result<std::unique_ptr<NatsValues>> NatsValues::open(natsConnection* connection, NatsInbox& inbox,
                                                      const NatsOptions& options) {
   DANCE_TRY(NatsBucket bucket, open_nats_bucket(connection, options));
-  return std::unique_ptr<NatsValues>(new NatsValues(std::move(bucket), options.bucket, inbox));
+  return std::unique_ptr<NatsValues>(
+      new NatsValues(connection, std::move(bucket), options.bucket, inbox));
 }
 
-NatsValues::NatsValues(NatsBucket bucket, const std::string& name, NatsInbox& inbox)
-    : bucket_(std::move(bucket)),
+NatsValues::NatsValues(natsConnection* connection, NatsBucket bucket, const std::string& name,
+                       NatsInbox& inbox)
+    : connection_(connection),
+      bucket_(std::move(bucket)),
       stream_name_("KV_" + name),
       subject_prefix_("$KV." + name + "."),
       inbox_(inbox),
       thread_([this] { run(); }) {}
 
 NatsValues::~NatsValues() {
-  {
-    const std::lock_guard lock(mutex_);
-    ends_ = true;
-  }
-  changed_.notify_all();
+  end();
   thread_.join();
+}
+
+void NatsValues::end() {
+  std::unique_lock lock(mutex_);
+  ends_ = true;
+  changed_.notify_all();
+  changed_.wait_for(lock, kEnd, [this] { return has_ended_; });
 }
 
 void NatsValues::put(std::string_view key, std::span<const std::uint8_t> value) {
@@ -110,7 +118,11 @@ void NatsValues::run() {
   for (;;) {
     changed_.wait(lock,
                   [this] { return ends_ || renews_ || !to_watch_.empty() || !unwritten_.empty(); });
-    if (ends_) return;
+    if (ends_) {
+      has_ended_ = true;
+      changed_.notify_all();
+      return;
+    }
     if (std::exchange(renews_, false)) to_watch_.insert(watched_.begin(), watched_.end());
     if (!to_watch_.empty())
       watch_one(lock);
@@ -147,7 +159,7 @@ void NatsValues::watch_one(std::unique_lock<std::mutex>& lock) {
   to_watch_.erase(to_watch_.begin());
   const bool is_wanted = watched_.contains(keys);
   lock.unlock();
-  subscriptions_.erase(keys);
+  end_subscription(keys);
   NatsHandle<natsSubscription> subscription;
   if (is_wanted) subscription = subscribe(keys);
   lock.lock();
@@ -158,6 +170,16 @@ void NatsValues::watch_one(std::unique_lock<std::mutex>& lock) {
     to_watch_.insert(keys);
     changed_.wait_for(lock, kRetry, [this] { return ends_; });
   }
+}
+
+void NatsValues::end_subscription(const std::string& keys) {
+  const auto of = subscriptions_.find(keys);
+  if (of != subscriptions_.end()) {
+    natsSubscription_Unsubscribe(of->second.get());
+    ended_.push_back(std::move(of->second));
+    subscriptions_.erase(of);
+  }
+  if (!ended_.empty() && reader_has_passed(connection_)) ended_.clear();
 }
 
 NatsHandle<natsSubscription> NatsValues::subscribe(const std::string& keys) {

@@ -2,7 +2,8 @@
 // thread of its own; of a key that is written again meanwhile only the newest value goes out.
 //
 // Units/frames: none.
-// Ownership:    copies what is written; connection and inbox must outlive it.
+// Ownership:    copies what is written; connection and inbox must outlive it, and the connection be
+//               closed before it goes.
 // Threads:      all calls from one thread, renew() from any.
 // Failure:      open() says what is missing. What cannot be written is written again until it is.
 #pragma once
@@ -46,6 +47,9 @@ class NatsValues {
   // None of its watch waits behind it.
   static bool is_last(natsMsg* message);
 
+  // Nothing is asked of NATS any more, and what was asked is answered, where NATS answers: so that
+  // the connection can be closed, which comes before this is destroyed.
+  void end();
   // Waits until all is written, or so long: at the end of a program.
   void flush(std::chrono::milliseconds longest);
   std::uint64_t failed() const { return failed_.load(std::memory_order_relaxed); }
@@ -54,13 +58,16 @@ class NatsValues {
  private:
   using Value = std::optional<std::vector<std::uint8_t>>;  // none: erase
 
-  NatsValues(NatsBucket bucket, const std::string& name, NatsInbox& inbox);
+  NatsValues(natsConnection* connection, NatsBucket bucket, const std::string& name,
+             NatsInbox& inbox);
   void write(std::string_view key, Value value);
   void run();
   void write_one(std::unique_lock<std::mutex>& lock);
   void watch_one(std::unique_lock<std::mutex>& lock);
   NatsHandle<natsSubscription> subscribe(const std::string& keys);
+  void end_subscription(const std::string& keys);
 
+  natsConnection* connection_;
   NatsBucket bucket_;
   std::string stream_name_;
   std::string subject_prefix_;
@@ -74,8 +81,10 @@ class NatsValues {
   bool is_writing_ = false;
   bool renews_ = false;
   bool ends_ = false;
+  bool has_ended_ = false;
   std::atomic<std::uint64_t> failed_{0};
   std::map<std::string, NatsHandle<natsSubscription>> subscriptions_;  // the thread's
+  std::vector<NatsHandle<natsSubscription>> ended_;  // that the reading thread may still use
   std::thread thread_;
 };
 
