@@ -171,10 +171,12 @@ if [ "$sanitizers" = yes ]; then
     quality='^BeatSongs|Takes\.|BeatTracker\.(FindsEachTempo|WorksAtEachSampleRate|TracksSalsa|FindsTheNextSong|FollowsATempo)'
     quality+='|BeatTracker\.(IsOnTheNewTempo|TurnsToTheLevel|NeverUsesTheFuture)|MusicEval\.(SaysByGenre|TakesSeveral|HearsASong)'
     quality+='|StereoDepth|SeveralEval|TouchEval\.LimitsOf|Holistic\.'
+    [ ${#only[@]} != 0 ] || build_ahead tsan thread_targets flow_targets
     jobs=$((jobs + 2)) run asan -LE 'check|soak|docs|fuzz' -E "$quality|$draws" "${only[@]}"
   fi
   # What these start has no threads that others do not have; and a camera that is preloaded comes before the sanitizer.
   no_threads="$draws|MusicRoom|MusicPrograms|Bench|ACameraThatWasUnplugged|SeeTwoDancersBefore|LookThroughASecond|Holistic"
+  await_build
   step tsan thread_targets flow_targets && tsan_is_built=yes || tsan_is_built=no
   # Fuzzing fills the processors, at the lowest priority, while programs dance under the thread sanitizer and wait.
   fuzz_one() { # TARGET
