@@ -35,16 +35,20 @@ class CaptureEval {
 
  private:
   Result<std::unique_ptr<PoseEstimator>> opened(bool tracks) const;
+  void begin_sequence();
   Result<void> take(PoseEstimator& estimator, const Frame& frame, std::string name);
+  void take_several(const Frame& frame, std::vector<CapturedPerson>& people);
+  void take_hands_and_face(const Frame& frame, std::size_t person, CapturedPerson& seen);
   Result<void> compare(PoseEstimator& estimator);
 
   CaptureEvalOptions options_;
   CaptureRun run_;
   std::unique_ptr<PoseEstimator> still_, moving_;
+  std::unique_ptr<PeopleEstimator> several_;
   std::unique_ptr<LandmarkNetwork> other_;
   Extras extras_;
-  std::optional<HandTracker> hands_;
-  std::optional<FaceTracker> face_;
+  std::vector<HandTracker> hands_;  // of each dancer; none: not asked for
+  std::vector<FaceTracker> face_;
   std::unique_ptr<HandsEval> judge_;  // of a video
   std::uint64_t in_sequence_ = 0;
 };
@@ -56,6 +60,12 @@ Result<std::unique_ptr<PoseEstimator>> CaptureEval::opened(bool tracks) const {
 }
 
 Result<void> CaptureEval::open() {
+  if (options_.people > 1) {
+    PeopleOptions people;
+    people.people = options_.people;
+    people.search_interval = options_.estimator.search_interval;
+    DANCE_TRY(several_, PeopleEstimator::open(options_.estimator, people));
+  }
   DANCE_TRY(still_, opened(false));
   DANCE_TRY(moving_, opened(true));
   // What engines do once only is not counted.
@@ -69,13 +79,13 @@ Result<void> CaptureEval::open() {
     DANCE_TRY(extras_.hands,
               HandNetworks::open(chosen_engine(options_.estimator.engine),
                                  pose_models_folder(options_.estimator.models_folder)));
-    hands_.emplace(*extras_.hands);
+    hands_.assign(options_.people, HandTracker(*extras_.hands));
   }
   if (options_.sees_face) {
     DANCE_TRY(extras_.face,
               FaceNetworks::open(chosen_engine(options_.estimator.engine),
                                  pose_models_folder(options_.estimator.models_folder)));
-    face_.emplace(*extras_.face);
+    face_.assign(options_.people, FaceTracker(*extras_.face));
   }
   if (!options_.compares_engines) return {};
   EngineComparison& engines = run_.engines;
@@ -110,22 +120,53 @@ Result<void> CaptureEval::compare(PoseEstimator& estimator) {
   return {};
 }
 
+// What was seen before says nothing of what comes.
+void CaptureEval::begin_sequence() {
+  moving_->reset();
+  if (several_) several_->reset();
+  for (HandTracker& hands : hands_) hands.reset();
+  for (FaceTracker& face : face_) face.reset();
+}
+
+void CaptureEval::take_hands_and_face(const Frame& frame, std::size_t person,
+                                      CapturedPerson& seen) {
+  if (!hands_.empty()) {
+    const std::int64_t start_ns = thread_time_ns();
+    for (const HandSide side : {HandSide::kLeft, HandSide::kRight})
+      seen.hands[static_cast<std::size_t>(side)] = hands_[person].look(frame, seen.body, side);
+    run_.hands_ms += ms_since(start_ns);
+  }
+  if (!face_.empty()) {
+    const std::int64_t start_ns = thread_time_ns();
+    seen.face = face_[person].look(frame, seen.body);
+    run_.face_ms += ms_since(start_ns);
+  }
+}
+
+void CaptureEval::take_several(const Frame& frame, std::vector<CapturedPerson>& people) {
+  const std::int64_t start_ns = thread_time_ns();
+  const auto bodies = several_->estimate(frame);
+  run_.ms += ms_since(start_ns);
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    people[i].body = people[i].unfiltered = bodies[i];
+    take_hands_and_face(frame, i, people[i]);
+  }
+}
+
 Result<void> CaptureEval::take(PoseEstimator& estimator, const Frame& frame, std::string name) {
+  CaptureFrame& seen = run_.frames.emplace_back();
+  seen.name = std::move(name);
+  seen.people.resize(options_.people);
+  if (several_) {
+    take_several(frame, seen.people);
+    return {};
+  }
   const std::int64_t start_ns = thread_time_ns();
   const BodyLandmarks& body = estimator.estimate(frame);
   run_.ms += ms_since(start_ns);
-  run_.frames.push_back({std::move(name), body, estimator.unfiltered(), {}, {}});
-  if (hands_) {
-    const std::int64_t hands_start_ns = thread_time_ns();
-    for (const HandSide side : {HandSide::kLeft, HandSide::kRight})
-      run_.frames.back().hands[static_cast<std::size_t>(side)] = hands_->look(frame, body, side);
-    run_.hands_ms += ms_since(hands_start_ns);
-  }
-  if (face_) {
-    const std::int64_t face_start_ns = thread_time_ns();
-    run_.frames.back().face = face_->look(frame, body);
-    run_.face_ms += ms_since(face_start_ns);
-  }
+  seen.people[0].body = body;
+  seen.people[0].unfiltered = estimator.unfiltered();
+  take_hands_and_face(frame, 0, seen.people[0]);
   if (judge_) judge_->see(frame, body, estimator.unfiltered());
   return other_ && body.found ? compare(estimator) : Result<void>{};
 }
@@ -141,17 +182,14 @@ Result<void> CaptureEval::add_picture(const std::string& path) {
     frame.sequence = in_sequence_++;
     return take(*moving_, frame, std::filesystem::path(path).filename().string());
   }
-  if (hands_) hands_->reset();
-  if (face_) face_->reset();
+  begin_sequence();
   return take(*still_, frame, std::filesystem::path(path).filename().string());
 }
 
 Result<void> CaptureEval::add_video(const std::string& path) {
   DANCE_TRY(const auto reel, VideoReel::open(path));
-  moving_->reset();
-  if (hands_) hands_->reset();
-  if (face_) face_->reset();
-  if (options_.judges_hands && (hands_ || face_))
+  begin_sequence();
+  if (options_.judges_hands && !several_ && !(hands_.empty() && face_.empty()))
     judge_ = std::make_unique<HandsEval>(extras_, reel->width_px(), reel->height_px());
   Frame frame;
   for (std::uint64_t i = 0;; ++i) {
@@ -188,6 +226,7 @@ CaptureRun CaptureEval::finish() && {
     run_.times.network_ns += t.network_ns;
     run_.times.rest_ns += t.rest_ns;
   }
+  if (several_) run_.of_several = several_->tracker().counters();
   return std::move(run_);
 }
 
@@ -216,19 +255,19 @@ LossComparison compare_after_loss(const CaptureRun& lost, const CaptureRun& unin
   const std::size_t end =
       std::min({lost_frame + 1 + kFrames, lost.frames.size(), uninterrupted.frames.size()});
   for (std::size_t f = 0; f < end; ++f) {
-    const CaptureFrame& frame = lost.frames[f];
-    if (!frame.body.found) {
+    const CapturedPerson& seen = lost.frames[f].people[0];
+    const CapturedPerson& known = uninterrupted.frames[f].people[0];
+    if (!seen.body.found) {
       begun_anew.reset();
       continue;
     }
-    const auto on = smoothed(frame.unfiltered, continued),
-               anew = smoothed(frame.unfiltered, begun_anew);
-    if (f <= lost_frame || !uninterrupted.frames[f].body.found) continue;
+    const auto on = smoothed(seen.unfiltered, continued),
+               anew = smoothed(seen.unfiltered, begun_anew);
+    if (f <= lost_frame || !known.body.found) continue;
     ++after.frames;
-    after.from_continued_mm += distance_mm(frame.body.world_m, on);
-    after.from_begun_anew_mm += distance_mm(frame.body.world_m, anew);
-    after.from_uninterrupted_mm +=
-        distance_mm(frame.body.world_m, uninterrupted.frames[f].body.world_m);
+    after.from_continued_mm += distance_mm(seen.body.world_m, on);
+    after.from_begun_anew_mm += distance_mm(seen.body.world_m, anew);
+    after.from_uninterrupted_mm += distance_mm(seen.body.world_m, known.body.world_m);
   }
   for (double* sum :
        {&after.from_continued_mm, &after.from_begun_anew_mm, &after.from_uninterrupted_mm})

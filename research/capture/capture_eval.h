@@ -14,12 +14,15 @@
 
 #include "producers/camera/estimator/pose_estimator.h"
 #include "producers/camera/face/face_tracker.h"
+#include "producers/camera/people/people_estimator.h"
 #include "research/capture/hands_eval.h"
 
 namespace dance {
 
 struct CaptureEvalOptions {
   EstimatorOptions estimator;
+  // Two and more: as capture sees several dancers (producers/camera/people), not smoothed.
+  std::size_t people = 1;
   std::uint32_t every = 1;  // n-th frame of a video
   bool compares_engines = false;
   bool sees_hands = false;
@@ -31,12 +34,16 @@ struct CaptureEvalOptions {
   std::optional<std::uint64_t> lost_frame;
 };
 
-struct CaptureFrame {
-  std::string name;  // "messi.jpg", "dance.mp4#12"
+struct CapturedPerson {
   BodyLandmarks body;
   BodyLandmarks unfiltered;
   std::array<HandLandmarks, 2> hands;  // left, right
   FaceLandmarks face;
+};
+struct CaptureFrame {
+  std::string name;  // "messi.jpg", "dance.mp4#12"
+  // As many as were asked for, each in one place throughout a video, found or not.
+  std::vector<CapturedPerson> people;
 };
 
 // The same regions in both engines.
@@ -55,8 +62,9 @@ struct CaptureRun {
   double hands_ms = 0.0;  // of both
   double face_ms = 0.0;
   HandFigures hands;
-  EstimatorCounters counters;
+  EstimatorCounters counters;  // of one dancer
   EstimatorTimes times;
+  PeopleCounters of_several;
   EngineComparison engines;
 };
 
@@ -76,6 +84,7 @@ LossComparison compare_after_loss(const CaptureRun& lost, const CaptureRun& unin
                                   std::size_t lost_frame);
 
 std::string capture_eval_table(const CaptureRun& run, const CaptureEvalOptions& options);
+// Of one dancer a frame bears the points itself, of several it has one object for each.
 std::string capture_eval_json(const CaptureRun& run);
 
 }  // namespace dance

@@ -15,6 +15,7 @@ constexpr const char* kExamples = R"(Examples:
   dance capture eval crowd.mp4 --follow 640,360
   dance capture eval dance.mp4 --lose 100
   dance capture eval dance.mp4 --hands
+  dance capture eval couple.mp4 --people 2 --json
 )";
 
 struct Wishes {
@@ -65,12 +66,25 @@ Result<void> compare_losses(Wishes wishes) {
   return {};
 }
 
+// Of several dancers each is told apart from the others: nobody is chosen, and what compares with
+// the original, which sees one, has nothing to compare with.
+Result<void> several_fit(const Wishes& wishes) {
+  const char* of_one = wishes.follow != "surest"      ? "--follow"
+                       : wishes.lost_frame > 0        ? "--lose"
+                       : wishes.eval.compares_engines ? "--compare-engines"
+                                                      : nullptr;
+  if (of_one == nullptr) return {};
+  return fail(std::string(of_one) + " is for one dancer: leave it out, or --people");
+}
+
 Result<void> run(Wishes wishes) {
   // Every frame is searched, however long nobody was there: nothing here is in real time.
   wishes.eval.estimator.search_interval = Duration{};
   if (wishes.lost_frame % wishes.eval.every != 0)
     return fail("--lose " + std::to_string(wishes.lost_frame) + ": not seen with --every " +
                 std::to_string(wishes.eval.every) + "; choose a multiple of that");
+  if (wishes.eval.people > 1)
+    if (auto fits = several_fit(wishes); !fits) return fits;
   if (wishes.lost_frame > 0) return compare_losses(wishes);
   wishes.eval.judges_hands = !wishes.json;
   DANCE_TRY(const CaptureRun run, evaluate_capture(wishes.files, wishes.eval));
@@ -106,6 +120,11 @@ int main(int argc, char** argv) {
   line.add("--follow", wishes.follow,
            "of several people: surest (as the original does), largest, or the one nearest to a "
            "place in pixels, 640,360")
+      .shows_default();
+  line.add("--people", wishes.eval.people,
+           "how many dancers, numbered from the left in the first picture; of two and more the "
+           "points are not smoothed")
+      .range(1, dance::kMostDancers)
       .shows_default();
   line.add("--every", wishes.eval.every, "n-th frame of videos").range(1, 100000).shows_default();
   line.add_choice<bool>("--smooth", estimator.smooths, {{"on", true}, {"off", false}},

@@ -33,9 +33,9 @@ nlohmann::json face_json(const FaceLandmarks& face) {
           {"landmarks_px", std::move(image)}};
 }
 
-nlohmann::json frame_json(const CaptureFrame& frame) {
+nlohmann::json person_json(const CapturedPerson& person) {
   nlohmann::json image = nlohmann::json::array(), world = nlohmann::json::array();
-  const BodyLandmarks& body = frame.body;
+  const BodyLandmarks& body = person.body;
   for (std::size_t i = 0; body.found && i < kLandmarkCount; ++i) {
     const Eigen::Vector3f& p = body.image_px[i];
     const Eigen::Vector3f& w = body.world_m[i];
@@ -45,18 +45,57 @@ nlohmann::json frame_json(const CaptureFrame& frame) {
   }
   nlohmann::json hands = nlohmann::json::object();
   for (std::size_t side = 0; side < 2; ++side)
-    if (frame.hands[side].found) hands[side == 0 ? "left" : "right"] = hand_json(frame.hands[side]);
-  return {{"name", frame.name},
-          {"detected", body.found},
+    if (person.hands[side].found)
+      hands[side == 0 ? "left" : "right"] = hand_json(person.hands[side]);
+  return {{"detected", body.found},
           {"region_side_px", rounded(body.found ? body.region.side_px : 0.0, 1e3)},
           {"landmarks_px", std::move(image)},
           {"world_m", std::move(world)},
           {"hands", std::move(hands)},
-          {"face", frame.face.found ? face_json(frame.face) : nlohmann::json()}};
+          {"face", person.face.found ? face_json(person.face) : nlohmann::json()}};
+}
+
+nlohmann::json frame_json(const CaptureFrame& frame) {
+  nlohmann::json json;
+  if (frame.people.size() == 1) {
+    json = person_json(frame.people[0]);
+  } else {
+    json["people"] = nlohmann::json::array();
+    for (const CapturedPerson& person : frame.people) json["people"].push_back(person_json(person));
+  }
+  json["name"] = frame.name;
+  return json;
+}
+
+// How many of something the frames have together.
+template <class Count>
+std::size_t total(const CaptureRun& run, const Count& count) {
+  std::size_t sum = 0;
+  for (const CaptureFrame& frame : run.frames)
+    for (const CapturedPerson& person : frame.people)
+      sum += static_cast<std::size_t>(count(person));
+  return sum;
 }
 
 double per(double sum, std::size_t count) {
   return count == 0 ? 0.0 : sum / static_cast<double>(count);
+}
+
+void print_several(const CaptureRun& run, std::size_t people,
+                   std::back_insert_iterator<std::string> out) {
+  const std::size_t frames = run.frames.size();
+  fmt::format_to(out, "{:>7} frames", frames);
+  for (std::size_t i = 0; i < people; ++i) {
+    std::size_t found = 0;
+    for (const CaptureFrame& frame : run.frames) found += frame.people[i].body.found ? 1 : 0;
+    fmt::format_to(out, ", {} with dancer {} ({:.1f} %)", found, i + 1,
+                   100.0 * per(static_cast<double>(found), frames));
+  }
+  const PeopleCounters& c = run.of_several;
+  fmt::format_to(out,
+                 "\n{:>7} searches of the whole picture, {} reads of regions, {} exchanged, {} on "
+                 "one body, {} limbs given to the other\n\n",
+                 c.searches, c.reads, c.exchanged, c.duplicates, c.limbs_hidden);
 }
 
 }  // namespace
@@ -84,34 +123,38 @@ std::string capture_eval_table(const CaptureRun& run, const CaptureEvalOptions& 
   auto out = std::back_inserter(text);
   fmt::format_to(out, "model {}, engine {}, one thread\n", name_of(options.estimator.model),
                  name_of(options.estimator.engine));
-  fmt::format_to(out, "{:>7} frames, {} with a dancer ({:.1f} %)\n", frames, c.found,
-                 100.0 * per(static_cast<double>(c.found), frames));
-  fmt::format_to(out,
-                 "{:>7} searches of the whole picture, {} looks for others, {} losses ({} jumps), "
-                 "{} exchanged\n\n",
-                 c.searches, c.looks, c.losses, c.refused, c.exchanged);
+  if (options.people == 1) {
+    fmt::format_to(out, "{:>7} frames, {} with a dancer ({:.1f} %)\n", frames, c.found,
+                   100.0 * per(static_cast<double>(c.found), frames));
+    fmt::format_to(out,
+                   "{:>7} searches of the whole picture, {} looks for others, {} losses ({} "
+                   "jumps), {} exchanged\n\n",
+                   c.searches, c.looks, c.losses, c.refused, c.exchanged);
+  } else {
+    print_several(run, options.people, out);
+  }
   fmt::format_to(out, "  processor time          ms a frame   ms each time\n");
   const auto line = [&](const char* what, double ms, std::size_t times) {
     fmt::format_to(out, "  {:<22} {:>11.2f} {:>14.2f}\n", what, per(ms, frames), per(ms, times));
   };
   const EstimatorTimes& t = run.times;
   line("read the file", run.decode_ms, frames);
-  line("search", static_cast<double>(t.search_ns) * 1e-6, c.searches + c.looks);
-  line("take the region", static_cast<double>(t.region_ns) * 1e-6, frames);
-  line("network", static_cast<double>(t.network_ns) * 1e-6, frames);
-  line("points, smoothing", static_cast<double>(t.rest_ns) * 1e-6, frames);
+  if (options.people == 1) {
+    line("search", static_cast<double>(t.search_ns) * 1e-6, c.searches + c.looks);
+    line("take the region", static_cast<double>(t.region_ns) * 1e-6, frames);
+    line("network", static_cast<double>(t.network_ns) * 1e-6, frames);
+    line("points, smoothing", static_cast<double>(t.rest_ns) * 1e-6, frames);
+  }
   line("picture to points", run.ms, frames);
   if (run.hands_ms > 0.0) {
-    std::size_t seen = 0;
-    for (const CaptureFrame& frame : run.frames)
-      for (const HandLandmarks& hand : frame.hands) seen += hand.found ? 1 : 0;
+    const std::size_t seen =
+        total(run, [](const CapturedPerson& p) { return p.hands[0].found + p.hands[1].found; });
     line("hands, both", run.hands_ms, frames);
     fmt::format_to(out, "  {} hands seen, {:.2f} a frame\n", seen,
                    per(static_cast<double>(seen), frames));
   }
   if (run.face_ms > 0.0) {
-    std::size_t seen = 0;
-    for (const CaptureFrame& frame : run.frames) seen += frame.face.found ? 1 : 0;
+    const std::size_t seen = total(run, [](const CapturedPerson& p) { return p.face.found; });
     line("face", run.face_ms, frames);
     fmt::format_to(out, "  {} faces seen, {:.2f} a frame\n", seen,
                    per(static_cast<double>(seen), frames));

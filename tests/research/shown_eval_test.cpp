@@ -154,30 +154,31 @@ TEST(ShownEval, WhatIsShownKeepsWhatIsPromised) {
 TEST(CaptureEval, TellsWhetherMetresGoOnAfterALoss) {
   CaptureRun lost, whole;
   for (int i = 0; i < 60; ++i) {
-    CaptureFrame frame;
-    frame.body.found = i != 30;
-    frame.body.capture_time = MonoTime() + Duration::ms(1000 + 33 * i);
-    for (Eigen::Vector3f& p : frame.body.world_m) p.setConstant(i % 2 ? 0.51f : 0.49f);
-    frame.unfiltered = frame.body;
-    lost.frames.push_back(frame);
-    frame.body.found = true;
-    whole.frames.push_back(frame);
+    CapturedPerson person;
+    person.body.found = i != 30;
+    person.body.capture_time = MonoTime() + Duration::ms(1000 + 33 * i);
+    for (Eigen::Vector3f& p : person.body.world_m) p.setConstant(i % 2 ? 0.51f : 0.49f);
+    person.unfiltered = person.body;
+    lost.frames.push_back({"", {person}});
+    person.body.found = true;
+    whole.frames.push_back({"", {person}});
   }
   // A smoother that goes on, and one that does not.
   for (const bool goes_on : {true, false}) {
     BodySmoothing smoothing;
     for (CaptureFrame& frame : lost.frames) {
-      if (!frame.body.found) {
+      CapturedPerson& person = frame.people[0];
+      if (!person.body.found) {
         goes_on ? smoothing.lose() : smoothing.reset();
         continue;
       }
       SeenBody seen;
-      seen.image_px = frame.unfiltered.image_px;
-      seen.world_m = frame.unfiltered.world_m;
-      seen.visibility = frame.unfiltered.visibility;
+      seen.image_px = person.unfiltered.image_px;
+      seen.world_m = person.unfiltered.world_m;
+      seen.visibility = person.unfiltered.visibility;
       seen.next_px = {Eigen::Vector2f(100.0f, 100.0f), Eigen::Vector2f(100.0f, 300.0f)};
-      smoothing.smooth(frame.body.capture_time, false, seen);
-      frame.body.world_m = seen.world_m;
+      smoothing.smooth(person.body.capture_time, false, seen);
+      person.body.world_m = seen.world_m;
     }
     const LossComparison after = compare_after_loss(lost, whole, 30);
     EXPECT_EQ(after.frames, 20);
