@@ -165,10 +165,9 @@ void CoupleScene::take_arms(std::size_t dancer, SeenBody& body) {
   }
 }
 
-bool CoupleScene::read(const BodyRegion& wished, std::span<const SeenBody* const> others,
-                       ReadBody& out) {
+bool CoupleScene::read(const BodyRegion& wished, const OtherPeople& others, ReadBody& out) {
   std::array<bool, 2> is_out{};
-  for (const SeenBody* other : others) is_out[nearer(frame_, *other)] = true;
+  for (const SeenBody* other : others.before) is_out[nearer(frame_, *other)] = true;
   std::array<float, 2> off{};
   for (std::size_t i = 0; i < 2; ++i) {
     const BodyRegion is = region(frame_, i);

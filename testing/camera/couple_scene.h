@@ -51,8 +51,7 @@ class CoupleScene final : public PeopleVision {
   // The picture that is looked at.
   void show(std::size_t frame);
   std::span<const SeenPerson> find() override;
-  bool read(const BodyRegion& region, std::span<const SeenBody* const> others,
-            ReadBody& out) override;
+  bool read(const BodyRegion& region, const OtherPeople& others, ReadBody& out) override;
   std::optional<PictureColour> colour(const Eigen::Vector2f& place_px) override;
 
  private:

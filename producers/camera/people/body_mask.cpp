@@ -9,8 +9,10 @@ namespace {
 
 // Of a body's measure.
 constexpr float kArm = 0.035f, kLeg = 0.055f, kTrunk = 0.045f, kHead = 0.075f;
-// Pixels beside the mask that say what is painted over it.
-constexpr int kBeside = 4;
+// Pixels beside the mask that say what is painted over it, and how far away they may be.
+constexpr int kBeside = 4, kFarthestBeside = 48;
+// What moves from one picture to the next.
+constexpr float kAround = 0.03f;
 
 struct Bar {
   Landmark from, to;
@@ -43,7 +45,7 @@ constexpr float kSeen = 0.3f;
 void BodyMask::begin(const BodyRegion& region) {
   frame_ = RegionFrame(region);
   scale_ = static_cast<float>(kSide_px) / std::max(1.0f, region.side_px);
-  if (!is_empty_) is_masked_.fill(false);
+  if (!is_empty_) cells_.fill(Cell::kFree);
   is_empty_ = true;
 }
 
@@ -52,7 +54,7 @@ Eigen::Vector2f BodyMask::place(const Eigen::Vector2f& p_px) const {
   return Eigen::Vector2f(kHalf, kHalf) + scale_ * frame_.offset(p_px);
 }
 
-void BodyMask::fill(const Eigen::Vector2f& a, const Eigen::Vector2f& b, float radius) {
+void BodyMask::fill(const Eigen::Vector2f& a, const Eigen::Vector2f& b, float radius, Cell cell) {
   constexpr auto kEdge = static_cast<float>(kSide_px);
   if (!a.allFinite() || !b.allFinite() || !(radius < kEdge) ||
       std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff()) > 8.0f * kEdge)
@@ -70,23 +72,27 @@ void BodyMask::fill(const Eigen::Vector2f& a, const Eigen::Vector2f& b, float ra
     for (int x = low(a.x(), b.x()); x < high(a.x(), b.x()); ++x) {
       const Eigen::Vector2f p(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
       const float share = std::clamp((p - a).dot(bar) / squared, 0.0f, 1.0f);
-      if ((p - a - share * bar).squaredNorm() <= radius * radius) is_masked_[index(x, y)] = true;
+      if ((p - a - share * bar).squaredNorm() <= radius * radius) cells_[index(x, y)] = cell;
     }
 }
 
-void BodyMask::add(const SeenBody& body) {
+void BodyMask::add(const SeenBody& body) { set(body, 0.0f, Cell::kMasked); }
+void BodyMask::spare(const SeenBody& body) { set(body, kAround, Cell::kSpared); }
+
+void BodyMask::set(const SeenBody& body, float thicker, Cell cell) {
   const float measure = body.size_px() * scale_;
   const auto at = [&](Landmark l) { return place(body.place_px(l)); };
   for (const Bar& bar : kBars)
     if (std::min(body.visibility[index_of(bar.from)], body.visibility[index_of(bar.to)]) > kSeen)
-      fill(at(bar.from), at(bar.to), bar.radius * measure);
+      fill(at(bar.from), at(bar.to), (bar.radius + thicker) * measure, cell);
   for (int i = 0; i <= kTrunkBars; ++i) {
     const float down = static_cast<float>(i) / static_cast<float>(kTrunkBars);
     const auto between = [&](Landmark shoulder, Landmark hip) {
       return Eigen::Vector2f(at(shoulder) + down * (at(hip) - at(shoulder)));
     };
     fill(between(Landmark::kLeftShoulder, Landmark::kLeftHip),
-         between(Landmark::kRightShoulder, Landmark::kRightHip), kTrunk * measure);
+         between(Landmark::kRightShoulder, Landmark::kRightHip), (kTrunk + thicker) * measure,
+         cell);
   }
 }
 
@@ -94,15 +100,18 @@ bool BodyMask::covers(const Eigen::Vector2f& place_px) const {
   const Eigen::Vector2f p = place(place_px);
   constexpr auto kEdge = static_cast<float>(kSide_px);
   if (!(p.x() >= 0.0f) || !(p.y() >= 0.0f) || !(p.x() < kEdge) || !(p.y() < kEdge)) return false;
-  return is_masked_[index(static_cast<int>(p.x()), static_cast<int>(p.y()))];
+  return is_masked(static_cast<int>(p.x()), static_cast<int>(p.y()));
 }
 
-std::optional<Eigen::Vector3f> BodyMask::mean(std::span<const float> pixels, int from, int to,
+std::optional<Eigen::Vector3f> BodyMask::mean(std::span<const float> pixels, int x, int step,
                                               int y) const {
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   int count = 0;
-  for (int x = std::max(from, 0); x < std::min(to, kSide_px); ++x) {
-    if (is_masked_[index(x, y)]) continue;
+  for (int i = 0; i < kFarthestBeside && count < kBeside && x >= 0 && x < kSide_px;
+       ++i, x += step) {
+    const Cell cell = cells_[index(x, y)];
+    if (cell == Cell::kMasked && count > 0) break;
+    if (cell != Cell::kFree) continue;
     sum += Eigen::Map<const Eigen::Vector3f>(pixels.data() + 3 * index(x, y));
     ++count;
   }
@@ -111,9 +120,10 @@ std::optional<Eigen::Vector3f> BodyMask::mean(std::span<const float> pixels, int
 }
 
 void BodyMask::paint_run(std::span<float> pixels, int from, int to, int y) const {
-  const auto left = mean(pixels, from - kBeside, from, y),
-             right = mean(pixels, to, to + kBeside, y);
-  const Eigen::Vector3f a = left ? *left : right.value_or(Eigen::Vector3f::Constant(0.5f)),
+  const auto left = mean(pixels, from - 1, -1, y), right = mean(pixels, to, 1, y);
+  const Eigen::Vector3f a = left    ? *left
+                            : right ? *right
+                                    : Eigen::Vector3f(Eigen::Vector3f::Constant(0.5f)),
                         b = right ? *right : a;
   for (int x = from; x < to; ++x) {
     const float share = (static_cast<float>(x - from) + 0.5f) / static_cast<float>(to - from);
@@ -125,9 +135,9 @@ void BodyMask::paint_over(std::span<float> pixels) const {
   if (is_empty_) return;
   for (int y = 0; y < kSide_px; ++y)
     for (int x = 0; x < kSide_px; ++x) {
-      if (!is_masked_[index(x, y)]) continue;
+      if (!is_masked(x, y)) continue;
       int end = x;
-      while (end < kSide_px && is_masked_[index(end, y)]) ++end;
+      while (end < kSide_px && is_masked(end, y)) ++end;
       paint_run(pixels, x, end, y);
       x = end;
     }

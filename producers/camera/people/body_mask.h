@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -23,6 +24,8 @@ class BodyMask {
   // Nobody is in it yet.
   void begin(const BodyRegion& region);
   void add(const SeenBody& body);
+  // Takes this body, and a little around it, out of the mask; nor is it painted over others.
+  void spare(const SeenBody& body);
   // A grey figure would still be a figure: each row goes over from what is on the left of the mask
   // to what is on its right.
   void paint_over(std::span<float> red_green_blue) const;
@@ -34,14 +37,19 @@ class BodyMask {
     return static_cast<std::size_t>(y) * kSide_px + static_cast<std::size_t>(x);
   }
   Eigen::Vector2f place(const Eigen::Vector2f& place_px) const;
-  void fill(const Eigen::Vector2f& a, const Eigen::Vector2f& b, float radius);
-  std::optional<Eigen::Vector3f> mean(std::span<const float> pixels, int from, int to, int y) const;
+  enum class Cell : std::uint8_t { kFree, kMasked, kSpared };
+  bool is_masked(int x, int y) const { return cells_[index(x, y)] == Cell::kMasked; }
+  // All bars of a body, each by so much thicker.
+  void set(const SeenBody& body, float thicker, Cell cell);
+  void fill(const Eigen::Vector2f& a, const Eigen::Vector2f& b, float radius, Cell cell);
+  // The mean of the nearest free pixels of a row, from `x` on to the left (-1) or right (1).
+  std::optional<Eigen::Vector3f> mean(std::span<const float> pixels, int x, int step, int y) const;
   void paint_run(std::span<float> pixels, int from, int to, int y) const;
 
   RegionFrame frame_{BodyRegion()};
   float scale_ = 1.0f;
   bool is_empty_ = true;
-  std::array<bool, static_cast<std::size_t>(kSide_px) * kSide_px> is_masked_{};
+  std::array<Cell, static_cast<std::size_t>(kSide_px) * kSide_px> cells_{};
 };
 
 }  // namespace dance

@@ -12,15 +12,22 @@ Result<std::unique_ptr<NetworkVision>> NetworkVision::open(const EstimatorOption
 
 std::span<const SeenPerson> NetworkVision::find() { return detector_.find(picture_, least_score_); }
 
-bool NetworkVision::read(const BodyRegion& region, std::span<const SeenBody* const> others,
-                         ReadBody& out) {
+bool NetworkVision::read(const BodyRegion& region, const OtherPeople& others, ReadBody& out) {
   network_.look(picture_, region);
   mask_.begin(region);
-  for (const SeenBody* other : others) mask_.add(*other);
+  for (const SeenBody* other : others.behind) mask_.add(*other);
+  if (others.own && !others.behind.empty()) mask_.spare(*others.own);
+  for (const SeenBody* other : others.before) mask_.add(*other);
   mask_.paint_over(network_.input());
   if (!network_.run() || !network_.read(out.body)) return false;
+  out.is_covered.reset();
+  if (others.before.empty()) return true;
+  if (!others.behind.empty()) {
+    mask_.begin(region);
+    for (const SeenBody* other : others.before) mask_.add(*other);
+  }
   for (std::size_t i = 0; i < kLandmarkCount; ++i)
-    out.is_covered[i] = !others.empty() && mask_.covers(out.body.image_px[i].head<2>());
+    out.is_covered[i] = mask_.covers(out.body.image_px[i].head<2>());
   return true;
 }
 

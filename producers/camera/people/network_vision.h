@@ -23,8 +23,7 @@ class NetworkVision final : public PeopleVision {
   void look_at(const cv::Mat& blue_green_red) { picture_ = blue_green_red; }
 
   std::span<const SeenPerson> find() override;
-  bool read(const BodyRegion& region, std::span<const SeenBody* const> others,
-            ReadBody& out) override;
+  bool read(const BodyRegion& region, const OtherPeople& others, ReadBody& out) override;
   std::optional<PictureColour> colour(const Eigen::Vector2f& place_px) override;
 
  private:

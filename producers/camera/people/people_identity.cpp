@@ -12,6 +12,9 @@ constexpr float kNear_sides = 0.06f, kApart_sides = 0.15f;
 constexpr float kMostEvidence = 4.0f, kLeastSum = -1.0f, kExchange = 4.0f;
 constexpr float kDoubtful = 3.0f, kMostDoubt = 4.0f, kRefused = 8.0f;
 constexpr Duration kCompany = Duration::s(3);
+// A body is another's who goes on there, where it is nearer than by this share, and by so much of a
+// body's measure.
+constexpr float kOnCourse = 0.65f, kLeastGain = 0.06f;
 
 }  // namespace
 
@@ -24,6 +27,30 @@ float PeopleTracker::distance(std::size_t a, std::size_t b, MonoTime now) const 
     return found_[i].is_found ? found_[i].body.next_region().side_px : tracks_[i].region().side_px;
   };
   return (middle(a) - middle(b)).norm() / std::max(1.0f, std::min(side(a), side(b)));
+}
+
+// A region beside two bodies may show the other in one picture. Nobody jumps into another's posture:
+// the body is that person's who was about to be there, and the one whose region it was is looked for.
+void PeopleTracker::reassign_bodies(MonoTime now) {
+  for (std::size_t a = 0; a < options_.people; ++a)
+    for (std::size_t b = 0; b < options_.people; ++b) {
+      if (a == b || !found_[a].is_found || is_left_out_[b]) continue;
+      const SeenBody& body = found_[a].body;
+      auto own = tracks_[a].off_course(body, now), others = tracks_[b].off_course(body, now);
+      if (!own || !others) continue;
+      if (found_[b].is_found) {
+        const auto back = tracks_[b].off_course(found_[b].body, now),
+                   to_a = tracks_[a].off_course(found_[b].body, now);
+        if (!back || !to_a) continue;
+        *own += *back;
+        *others += *to_a;
+      }
+      if (*others > kOnCourse * *own || *own - *others < kLeastGain) continue;
+      ++counters_.reassigned;
+      std::swap(found_[a], found_[b]);
+      for (const std::size_t i : {a, b})
+        if (!found_[i].is_found) tracks_[i].lose();
+    }
 }
 
 // How much better the picture's colours fit if the two were taken for each other.

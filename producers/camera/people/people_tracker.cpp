@@ -34,16 +34,11 @@ constexpr float kOwnColour = 2.0f, kOthersColour = 5.0f;
 // A gap that the solver bridges as one of the same dancer.
 constexpr Duration kShortGap = Duration::ms(500);
 
-constexpr Landmark kJoints[]{
-    Landmark::kLeftShoulder, Landmark::kRightShoulder, Landmark::kLeftElbow, Landmark::kRightElbow,
-    Landmark::kLeftHip,      Landmark::kRightHip,      Landmark::kLeftKnee,  Landmark::kRightKnee,
-    Landmark::kLeftAnkle,    Landmark::kRightAnkle};
-
 bool are_one_body(const SeenBody& a, const SeenBody& b) {
   float sum = 0.0f;
-  for (const Landmark l : kJoints)
+  for (const Landmark l : kBodyJoints)
     sum += (a.image_px[index_of(l)] - b.image_px[index_of(l)]).head<2>().norm();
-  return sum / static_cast<float>(std::size(kJoints)) <
+  return sum / static_cast<float>(kBodyJoints.size()) <
          kSameBody * std::max(1.0f, std::min(a.size_px(), b.size_px()));
 }
 
@@ -80,20 +75,35 @@ const SeenBody* PeopleTracker::present(std::size_t person) const {
   return found_[person].is_found || is_left_out_[person] ? &found_[person].body : nullptr;
 }
 
-// Those who have been found already are nearer to the camera: the others are read without them.
-bool PeopleTracker::read(PeopleVision& vision, const BodyRegion& region, ReadBody& out) {
+// Those who have been found already are nearer to the camera: the others are read without them. Who
+// is read next is not looked at either, but for where the first covers that one.
+bool PeopleTracker::read(PeopleVision& vision, const BodyRegion& region, MonoTime now,
+                         std::optional<std::size_t> person, ReadBody& out) {
   if (!(region.side_px >= kLeastSide_px)) return false;
   ++counters_.reads;
-  std::array<const SeenBody*, kMostDancers> others{};
-  std::size_t count = 0;
+  std::array<const SeenBody*, kMostDancers> before{}, behind{};
+  std::array<std::optional<SeenBody>, kMostDancers> expected;
+  std::size_t count_before = 0, count_behind = 0;
+  const auto overlaps = [&](const SeenBody& other) {
+    return (centre_of(other.next_region()) - centre_of(region)).norm() <
+           kOverlap_sides * region.side_px;
+  };
   for (std::size_t i = 0; i < options_.people; ++i) {
-    const SeenBody* other = present(i);
-    if (other && (centre_of(other->next_region()) - centre_of(region)).norm() <
-                     kOverlap_sides * region.side_px)
-      others[count++] = other;
+    if (const SeenBody* other = present(i)) {
+      if (overlaps(*other)) before[count_before++] = other;
+    } else if (person && tracks_[i].next()) {
+      expected[i] = tracks_[i].expected_body(now);
+      if (i != *person && expected[i] && overlaps(*expected[i]))
+        behind[count_behind++] = &*expected[i];
+    }
   }
-  return vision.read(region, std::span(others.data(), count), out) &&
-         out.body.presence > options_.least_presence &&
+  OtherPeople others;
+  others.before = std::span(before.data(), count_before);
+  if (person && expected[*person]) {
+    others.own = &*expected[*person];
+    others.behind = std::span(behind.data(), count_behind);
+  }
+  return vision.read(region, others, out) && out.body.presence > options_.least_presence &&
          out.body.next_region().side_px >= kLeastSide_px;
 }
 
@@ -123,7 +133,8 @@ void PeopleTracker::read_tracked(PeopleVision& vision, MonoTime now, const Reads
     if (now - tracks_[i].seen() > options_.probe_for) tracks_[i].lose();
     const std::optional<BodyRegion> region = tracks_[i].next();
     if (!reads[i] || !region) continue;
-    if (read(vision, *region, seen) && tracks_[i].is_plausible(seen.body.next_region(), now))
+    if (read(vision, *region, now, i, seen) &&
+        tracks_[i].is_plausible(seen.body.next_region(), now))
       take(i, *region, seen, false);
     else
       tracks_[i].lose();
@@ -193,27 +204,53 @@ std::optional<float> PeopleTracker::middle_of_colours(PeopleVision& vision, std:
   return std::nullopt;
 }
 
+// Where a missing person is expected, where that one's colours are; later on where another is who
+// may be before that one, if the colours are seen there.
+std::optional<BodyRegion> PeopleTracker::region_to_probe(PeopleVision& vision, std::size_t person,
+                                                         MonoTime now) const {
+  const PersonTrack& track = tracks_[person];
+  const Duration away = now - track.seen();
+  if (!track.was_ever_seen() || away > options_.forget_after || now <= track.seen())
+    return std::nullopt;
+  BodyRegion region = track.region();
+  Eigen::Vector2f middle = track.expected_px(now);
+  if (away > options_.probe_for) {
+    float least = region.side_px;
+    const SeenBody* before = nullptr;
+    for (std::size_t i = 0; i < options_.people; ++i) {
+      if (i == person || !found_[i].is_found) continue;
+      const float apart = (centre_of(found_[i].body.next_region()) - middle).norm();
+      if (apart < least) {
+        least = apart;
+        before = &found_[i].body;
+      }
+    }
+    if (before == nullptr) return std::nullopt;
+    middle = centre_of(before->next_region());
+  }
+  region.centre_x_px = middle.x();
+  region.centre_y_px = middle.y();
+  const auto middle_px = middle_of_colours(vision, person, region);
+  if (middle_px)
+    region.centre_x_px = *middle_px;
+  else if (away > options_.probe_for)
+    return std::nullopt;
+  return region;
+}
+
 void PeopleTracker::probe_missing(PeopleVision& vision, MonoTime now, const Reads& reads) {
   ReadBody seen;
   for (std::size_t i = 0; i < options_.people; ++i) {
     PersonTrack& track = tracks_[i];
-    if (!reads[i] || found_[i].is_found || !track.was_ever_seen() ||
-        now - track.seen() > options_.probe_for || now <= track.seen())
+    if (!reads[i] || found_[i].is_found) continue;
+    const std::optional<BodyRegion> region = region_to_probe(vision, i, now);
+    if (!region || !read(vision, *region, now, std::nullopt, seen) ||
+        !track.is_plausible(seen.body.next_region(), now) || is_of_somebody(seen.body))
       continue;
-    const Eigen::Vector2f expected = track.expected_px(now);
-    BodyRegion region = track.region();
-    region.centre_x_px = expected.x();
-    region.centre_y_px = expected.y();
-    if (const auto middle_px = middle_of_colours(vision, i, region))
-      region.centre_x_px = *middle_px;
-    if (!read(vision, region, seen) || !track.is_plausible(seen.body.next_region(), now) ||
-        is_of_somebody(seen.body))
-      continue;
-    if (track.look.is_known()) {
-      const auto off = track.look.distance(look_of(seen.body, vision));
-      if (off && *off > kOtherLook) continue;
-    }
-    take(i, region, seen, now - track.seen() > kShortGap);
+    const auto off =
+        track.look.is_known() ? track.look.distance(look_of(seen.body, vision)) : std::nullopt;
+    if (off ? *off > kOtherLook : now - track.seen() > options_.probe_for) continue;
+    take(i, *region, seen, now - track.seen() > kShortGap);
   }
 }
 
@@ -237,7 +274,7 @@ float PeopleTracker::cost_of(std::size_t person, const Candidate& candidate, Mon
 }
 
 // From the left to the right, so that persons who were never seen are numbered in this order.
-std::size_t PeopleTracker::find_candidates(PeopleVision& vision, std::size_t wanted) {
+std::size_t PeopleTracker::find_candidates(PeopleVision& vision, MonoTime now, std::size_t wanted) {
   std::size_t count = 0;
   // More than are missing, so that a bystander is in nobody's way; but not the whole street.
   std::size_t may_read = wanted + kMoreCandidates;
@@ -253,7 +290,8 @@ std::size_t PeopleTracker::find_candidates(PeopleVision& vision, std::size_t wan
     if (is_tracked) continue;
     --may_read;
     Candidate& candidate = candidates_[count];
-    if (!read(vision, person.region, candidate.seen) || is_of_somebody(candidate.seen.body))
+    if (!read(vision, person.region, now, std::nullopt, candidate.seen) ||
+        is_of_somebody(candidate.seen.body))
       continue;
     const bool is_double = std::any_of(
         candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(count),
@@ -281,7 +319,7 @@ void PeopleTracker::search(PeopleVision& vision, MonoTime now, const Reads& read
   if (!is_due) return;
   last_search_ = now;
   ++counters_.searches;
-  const std::size_t candidates = find_candidates(vision, count);
+  const std::size_t candidates = find_candidates(vision, now, count);
   Assignment::Costs costs{};
   for (std::size_t m = 0; m < count; ++m)
     for (std::size_t c = 0; c < candidates; ++c)
@@ -334,6 +372,7 @@ std::span<const PersonInPicture> PeopleTracker::update(PeopleVision& vision, Mon
     is_left_out_[i] = i < options_.people && !reads[i] && tracks_[i].next().has_value();
   }
   read_tracked(vision, now, reads);
+  reassign_bodies(now);
   separate_duplicates(vision, now);
   probe_missing(vision, now, reads);
   search(vision, now, reads);

@@ -46,6 +46,7 @@ struct PeopleCounters {
   std::uint64_t reads = 0;       // of regions
   std::uint64_t duplicates = 0;  // two regions that had come to one body
   std::uint64_t exchanged = 0;   // identities that were put right
+  std::uint64_t reassigned = 0;  // bodies on another's course, given to that one
   std::uint64_t limbs_hidden = 0;
 };
 
@@ -75,19 +76,24 @@ class PeopleTracker {
     PersonLook look;
   };
 
-  bool read(PeopleVision& vision, const BodyRegion& region, ReadBody& out);
+  // Of `person`, if it is one who was seen in the last picture.
+  bool read(PeopleVision& vision, const BodyRegion& region, MonoTime now,
+            std::optional<std::size_t> person, ReadBody& out);
   void read_tracked(PeopleVision& vision, MonoTime now, const Reads& reads);
   void take(std::size_t person, const BodyRegion& region, const ReadBody& seen, bool is_new);
+  void reassign_bodies(MonoTime now);
   void separate_duplicates(PeopleVision& vision, MonoTime now);
   // As seen in this picture, or in the last one by a person who is left out of this; null: missing.
   const SeenBody* present(std::size_t person) const;
   bool is_of_somebody(const SeenBody& body) const;
   void forget(std::size_t person);
   void probe_missing(PeopleVision& vision, MonoTime now, const Reads& reads);
+  std::optional<BodyRegion> region_to_probe(PeopleVision& vision, std::size_t person,
+                                            MonoTime now) const;
   std::optional<float> middle_of_colours(PeopleVision& vision, std::size_t person,
                                          const BodyRegion& region) const;
   void search(PeopleVision& vision, MonoTime now, const Reads& reads);
-  std::size_t find_candidates(PeopleVision& vision, std::size_t wanted);
+  std::size_t find_candidates(PeopleVision& vision, MonoTime now, std::size_t wanted);
   // Of the tracked, who is nearest to the camera first.
   std::array<std::size_t, kMostDancers> from_front() const;
   float cost_of(std::size_t person, const Candidate& candidate, MonoTime now) const;

@@ -25,15 +25,22 @@ struct ReadBody {
   std::bitset<kLandmarkCount> is_covered;  // points behind one of the others: guessed
 };
 
+// Who else is in a region; all of them overlap it.
+struct OtherPeople {
+  // Nearer to the camera than the body that is wished: not looked at, and what they cover is guessed.
+  std::span<const SeenBody* const> before;
+  // Not read yet, where they are expected: not looked at, but for where the wished body is expected.
+  std::span<const SeenBody* const> behind;
+  const SeenBody* own = nullptr;  // where the wished body is expected; null: not known
+};
+
 class PeopleVision {
  public:
   virtual ~PeopleVision() = default;
   // A pass over the whole picture: the surest first.
   virtual std::span<const SeenPerson> find() = 0;
-  // The body in the region, with `presence` as the network has it; `others` are before it, and are
-  // not looked at.
-  virtual bool read(const BodyRegion& region, std::span<const SeenBody* const> others,
-                    ReadBody& out) = 0;
+  // The body in the region, with `presence` as the network has it.
+  virtual bool read(const BodyRegion& region, const OtherPeople& others, ReadBody& out) = 0;
   virtual std::optional<PictureColour> colour(const Eigen::Vector2f& place_px) = 0;
 };
 

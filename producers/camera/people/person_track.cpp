@@ -1,5 +1,6 @@
 #include "producers/camera/people/person_track.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace dance {
@@ -11,6 +12,8 @@ constexpr float kJump_sides = 0.12f, kJump_sides_per_s = 1.5f;
 constexpr float kGrowth = 1.4f;
 constexpr float kSpeedWeight = 0.3f;
 constexpr float kSpeedFades_s = 0.5f;
+// After so long a body may be in any posture.
+constexpr Duration kKeepsPosture = Duration::ms(250);
 
 }  // namespace
 
@@ -30,6 +33,28 @@ bool PersonTrack::is_plausible(const BodyRegion& region, MonoTime now) const {
          growth * most_growth >= 1.0f;
 }
 
+std::optional<SeenBody> PersonTrack::expected_body(MonoTime now) const {
+  if (!was_ever_seen() || now - seen_ > kKeepsPosture) return std::nullopt;
+  SeenBody body = body_;
+  const Eigen::Vector2f moved = expected_px(now) - centre_of(region_);
+  for (Eigen::Vector3f& p : body.image_px) p.head<2>() += moved;
+  for (Eigen::Vector2f& p : body.next_px) p += moved;
+  return body;
+}
+
+std::optional<float> PersonTrack::off_course(const SeenBody& body, MonoTime now) const {
+  if (!was_ever_seen() || now - seen_ > kKeepsPosture) return std::nullopt;
+  const Eigen::Vector2f moved = expected_px(now) - centre_of(region_);
+  float straight = 0.0f, exchanged = 0.0f;
+  for (std::size_t j = 0; j < kBodyJoints.size(); ++j) {
+    const Eigen::Vector2f is = body.place_px(kBodyJoints[j]) - moved;
+    straight += (is - body_.place_px(kBodyJoints[j])).norm();
+    exchanged += (is - body_.place_px(kBodyJoints[j ^ 1])).norm();
+  }
+  return std::min(straight, exchanged) /
+         (static_cast<float>(kBodyJoints.size()) * std::max(1.0f, body.size_px()));
+}
+
 void PersonTrack::update(const SeenBody& body, MonoTime now) {
   const BodyRegion is = body.next_region();
   if (is_begun_ && now > seen_) {
@@ -40,6 +65,7 @@ void PersonTrack::update(const SeenBody& body, MonoTime now) {
     speed_px_s_.setZero();
   }
   region_ = is;
+  body_ = body;
   seen_ = now;
   is_begun_ = true;
   SeenBody steadied = body;

@@ -8,6 +8,7 @@
 // Failure:      none.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "core/base/time.h"
@@ -15,6 +16,12 @@
 #include "producers/camera/people/person_look.h"
 
 namespace dance {
+
+// By which bodies are compared; a right one follows each left one.
+constexpr std::array<Landmark, 10> kBodyJoints{
+    Landmark::kLeftShoulder, Landmark::kRightShoulder, Landmark::kLeftElbow, Landmark::kRightElbow,
+    Landmark::kLeftHip,      Landmark::kRightHip,      Landmark::kLeftKnee,  Landmark::kRightKnee,
+    Landmark::kLeftAnkle,    Landmark::kRightAnkle};
 
 class PersonTrack {
  public:
@@ -28,6 +35,12 @@ class PersonTrack {
   // Whether the person can be in this region now.
   bool is_plausible(const BodyRegion& region, MonoTime now) const;
 
+  // The last body, moved to where it is expected now. None where it says nothing any more.
+  std::optional<SeenBody> expected_body(MonoTime now) const;
+  // How far a body's joints are from where the last one's are expected now, the mean in lengths of
+  // its measure; sides exchanged where that is nearer. None where the last one says nothing any more.
+  std::optional<float> off_course(const SeenBody& body, MonoTime now) const;
+
   // The body that was read in a picture; steadies where it is looked for next.
   void update(const SeenBody& body, MonoTime now);
   void lose();
@@ -39,6 +52,7 @@ class PersonTrack {
  private:
   std::optional<BodyRegion> next_;
   BodyRegion region_;
+  SeenBody body_;
   Eigen::Vector2f speed_px_s_ = Eigen::Vector2f::Zero();
   MonoTime seen_;
   bool is_begun_ = false;  // the speed is of pictures without a gap

@@ -21,24 +21,38 @@ constexpr std::size_t kWarmUp = 60;  // frames in which the solver learns bones 
 
 double thread_ms() { return 1e-6 * static_cast<double>(thread_time_ns()); }
 
+using JointPlaces_px = std::array<Vector2d, kJudgedCount>;
+
+JointPlaces_px places_px(const BodyLandmarks& seen) {
+  JointPlaces_px places;
+  for (std::size_t j = 0; j < kJudgedCount; ++j)
+    places[j] = seen.image(kLimbJoints[j].landmark).head<2>().cast<double>();
+  return places;
+}
+
 // The mean distance of a body's joints in the picture, sides exchanged where that is nearer: a back
 // that is taken for a front is still the same person's.
-double distance_px(const BodyLandmarks& seen, const std::array<Vector2d, kJudgedCount>& truth) {
+double distance_px(const BodyLandmarks& seen, const JointPlaces_px& reference) {
+  const JointPlaces_px places = places_px(seen);
   double straight = 0.0, exchanged = 0.0;
   for (std::size_t j = 0; j < kJudgedCount; ++j) {
-    const Vector2d p = seen.image(kLimbJoints[j].landmark).head<2>().cast<double>();
-    straight += (p - truth[j]).norm();
-    exchanged += (p - truth[j ^ 1]).norm();
+    straight += (places[j] - reference[j]).norm();
+    exchanged += (places[j] - reference[j ^ 1]).norm();
   }
   return std::min(straight, exchanged) / static_cast<double>(kJudgedCount);
 }
 
+// Where the network sees each of the two who is drawn alone: what is off of a dancer there is off
+// beside the partner, too, and says nothing of who it is.
+using References = std::array<JointPlaces_px, 2>;
+
 class IdentityJudge {
  public:
   explicit IdentityJudge(double hz) : hz_(hz) {}
-  void judge(const CoupleTruth& truth, std::size_t person, const BodyLandmarks& seen) {
-    const bool is_wrong = seen.found && distance_px(seen, truth.joint_px[1 - person]) <
-                                            distance_px(seen, truth.joint_px[person]);
+  void judge(const CoupleTruth& truth, const References& alone, std::size_t person,
+             const BodyLandmarks& seen) {
+    const bool is_wrong =
+        seen.found && distance_px(seen, alone[1 - person]) < distance_px(seen, alone[person]);
     wrong_run_[person] = is_wrong ? wrong_run_[person] + 1 : 0;
     if (truth.hidden[person] >= kFullyHidden) return;
     ++figures_.frames;
@@ -126,11 +140,11 @@ class Evaluation {
   }
 
   Result<CoupleScore> run() {
-    if (auto done = run_people(); !done) return tl::make_unexpected(done.error());
-    if (!wishes_.has_baselines) return score_;
-    if (auto done = run_separate(); !done) return tl::make_unexpected(done.error());
     for (std::size_t i = 0; i < 2; ++i)
       if (auto done = run_alone(i); !done) return tl::make_unexpected(done.error());
+    if (auto done = run_people(); !done) return tl::make_unexpected(done.error());
+    if (!wishes_.has_baseline) return score_;
+    if (auto done = run_separate(); !done) return tl::make_unexpected(done.error());
     return score_;
   }
 
@@ -146,13 +160,13 @@ class Evaluation {
     frame.sequence = f;
     return frame;
   }
+  const References& references(std::size_t f) const { return references_[f - wishes_.first_frame]; }
   // Who is who is said by the first picture with anybody: number 0 is whom that body is nearer to.
-  void number(const CoupleTruth& truth, std::span<const BodyLandmarks> bodies) {
+  void number(const References& alone, std::span<const BodyLandmarks> bodies) {
     if (is_numbered_) return;
     for (std::size_t p = 0; p < 2; ++p) {
       if (!bodies[p].found) continue;
-      const bool is_lead =
-          distance_px(bodies[p], truth.joint_px[0]) < distance_px(bodies[p], truth.joint_px[1]);
+      const bool is_lead = distance_px(bodies[p], alone[0]) < distance_px(bodies[p], alone[1]);
       is_exchanged_ = is_lead != (p == 0);
       is_numbered_ = true;
       return;
@@ -177,7 +191,7 @@ class Evaluation {
       const double begin = thread_ms();
       const auto bodies = estimator->estimate(frame);
       const CoupleTruth& truth = couple_.truth(f);
-      number(truth, bodies);
+      number(references(f), bodies);
       std::array<Pose, 2> poses;
       std::array<bool, 2> is_shown{};
       for (std::size_t p = 0; p < 2; ++p)
@@ -185,7 +199,7 @@ class Evaluation {
       times.push_back(thread_ms() - begin);
       for (std::size_t p = 0; p < 2; ++p) {
         const std::size_t person = person_of(p);
-        identities.judge(truth, person, bodies[p]);
+        identities.judge(truth, references(f), person, bodies[p]);
         if (is_shown[p] && f >= wishes_.first_frame + kWarmUp)
           wrists[person].judge(truth, person, solvers[p].skeleton(), poses[p]);
       }
@@ -211,14 +225,14 @@ class Evaluation {
       const std::size_t person = person_of(p);
       if (bodies[p].found)
         log << fmt::format("  {}: own {:.0f} other {:.0f}{}", person,
-                           distance_px(bodies[p], truth.joint_px[person]),
-                           distance_px(bodies[p], truth.joint_px[1 - person]),
+                           distance_px(bodies[p], references(f)[person]),
+                           distance_px(bodies[p], references(f)[1 - person]),
                            bodies[p].is_new ? " new" : "");
       else
         log << fmt::format("  {}: -", person);
     }
-    log << fmt::format("  s {} d {} x {} l {}", counters.searches, counters.duplicates,
-                       counters.exchanged, counters.limbs_hidden);
+    log << fmt::format("  s {} d {} x {} r {} l {}", counters.searches, counters.duplicates,
+                       counters.exchanged, counters.reassigned, counters.limbs_hidden);
   }
 
   // How far off the shown hips are, in metres.
@@ -244,7 +258,7 @@ class Evaluation {
       for (std::size_t f = wishes_.first_frame; f < end_; ++f) {
         DANCE_TRY(const Frame frame, frame_of(f, DrawnCouple::Who::kBoth));
         estimator->estimate(frame);
-        identities.judge(couple_.truth(f), person, estimator->unfiltered());
+        identities.judge(couple_.truth(f), references(f), person, estimator->unfiltered());
       }
     }
     score_.separate = identities.figures();
@@ -256,11 +270,15 @@ class Evaluation {
     BodySolver solver(SolverOptions{}, couple_.pinhole());
     WristJudge wrists;
     std::vector<double> times;
+    references_.resize(end_ - wishes_.first_frame);
     for (std::size_t f = wishes_.first_frame; f < end_; ++f) {
       DANCE_TRY(const Frame frame,
                 frame_of(f, person == 0 ? DrawnCouple::Who::kLead : DrawnCouple::Who::kFollow));
       const double begin = thread_ms();
       estimator->estimate(frame);
+      references_[f - wishes_.first_frame][person] = estimator->unfiltered().found
+                                                         ? places_px(estimator->unfiltered())
+                                                         : couple_.truth(f).joint_px[person];
       Pose pose;
       const bool is_shown = solver.solve(estimator->unfiltered(), std::nullopt, pose);
       times.push_back(thread_ms() - begin);
@@ -276,6 +294,7 @@ class Evaluation {
   CoupleWishes wishes_;
   std::size_t end_ = 0;
   EstimatorOptions networks_;
+  std::vector<References> references_;  // of each frame
   bool is_numbered_ = false, is_exchanged_ = false;
   CoupleScore score_;
 };
@@ -308,6 +327,7 @@ CoupleScore all_of(const std::vector<CoupleScore>& scores) {
     all.counters.reads += score.counters.reads;
     all.counters.duplicates += score.counters.duplicates;
     all.counters.exchanged += score.counters.exchanged;
+    all.counters.reassigned += score.counters.reassigned;
     all.counters.limbs_hidden += score.counters.limbs_hidden;
     ms.push_back(score.ms_median);
     p95.push_back(score.ms_p95);

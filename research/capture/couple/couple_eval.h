@@ -1,5 +1,5 @@
-// Two dancers before one camera, judged: who is taken for whom, and the wrists of the shown bodies
-// beside those of the same dancers drawn alone.
+// Two dancers before one camera, judged beside the same dancers drawn alone: who is taken for whom,
+// by whose points alone a body's are nearer to, and the wrists of the shown bodies.
 //
 // Units/frames: as the names say; W of drawn_couple.h.
 // Ownership:    plain values.
@@ -42,8 +42,8 @@ struct CoupleScore {
 struct CoupleWishes {
   PoseModel model = PoseModel::kFull;
   std::size_t first_frame = 0, most_frames = 1'000'000;
-  bool has_baselines = true;
-  std::string log;  // a line for each picture with something to tell; "" none
+  bool has_baseline = true;  // of two estimators
+  std::string log;           // a line for each picture with something to tell; "" none
 };
 
 Result<CoupleScore> evaluate_couple(DrawnCouple& couple, const CoupleWishes& wishes);

@@ -58,6 +58,7 @@ nlohmann::ordered_json json_of(const CoupleScore& s) {
           {"alone", json_of(s.alone)},
           {"together", json_of(s.together)},
           {"exchanged", s.counters.exchanged},
+          {"reassigned", s.counters.reassigned},
           {"duplicates", s.counters.duplicates},
           {"limbs_hidden", s.counters.limbs_hidden},
           {"searches", s.counters.searches},
@@ -83,10 +84,11 @@ void print(const CoupleScore& s) {
   print_wrists("alone", s.alone);
   print_wrists("together", s.together);
   fmt::print(
-      "    in hold {:.2f} times alone; {} exchanged back, {} on one body, {} limbs given to the "
-      "other, {} searches\n",
+      "    in hold {:.2f} times alone; {} exchanged back, {} reassigned, {} on one body, {} limbs "
+      "given to the other, {} searches\n",
       s.alone.in_hold_mm > 0.0 ? s.together.in_hold_mm / s.alone.in_hold_mm : 0.0,
-      s.counters.exchanged, s.counters.duplicates, s.counters.limbs_hidden, s.counters.searches);
+      s.counters.exchanged, s.counters.reassigned, s.counters.duplicates, s.counters.limbs_hidden,
+      s.counters.searches);
   fmt::print("    processor: both {:.1f} ms, p95 {:.1f}; one alone {:.1f}\n", s.ms_median, s.ms_p95,
              s.alone_ms_median);
 }
@@ -97,7 +99,7 @@ Result<void> evaluate(const CoupleEvalWishes& wishes) {
     return fail("--avatar: two files, the lead's and the follow's");
   CoupleWishes how;
   how.log = wishes.log;
-  how.has_baselines = !wishes.is_quick;
+  how.has_baseline = !wishes.is_quick;
   how.model = wishes.model;
   how.first_frame = static_cast<std::size_t>(wishes.from_s * wishes.hz);
   if (wishes.seconds > 0.0) how.most_frames = static_cast<std::size_t>(wishes.seconds * wishes.hz);
@@ -156,7 +158,7 @@ int main(int argc, char** argv) {
                                      {"full", dance::PoseModel::kFull},
                                      {"heavy", dance::PoseModel::kHeavy}},
                                     "size of the pose network");
-  line.add_flag("--quick", wishes.is_quick, "without the baselines");
+  line.add_flag("--quick", wishes.is_quick, "without the baseline of two programs");
   line.add_flag("--json", wishes.is_json, "one JSON object on stdout");
   line.footer(dance::kCoupleExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::evaluate(wishes); });

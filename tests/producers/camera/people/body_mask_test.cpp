@@ -94,6 +94,29 @@ TEST_F(BodyMaskTest, PaintsFromTheLeftOfTheMaskToItsRight) {
     ASSERT_NEAR(marked[i], before[i], 0.03f) << "a ramp is a ramp again, at " << i / 3;
 }
 
+TEST_F(BodyMaskTest, SparesWhoIsWishedAndPaintsNothingOfThatOneOverOthers) {
+  const SeenBody other = upright_body();
+  SeenBody own = upright_body();
+  for (Eigen::Vector3f& p : own.image_px) p.x() -= 150.0f;
+  mask_->add(other);
+  mask_->spare(own);
+  EXPECT_FALSE(mask_->covers({150.0f, 240.0f})) << "the own trunk";
+  EXPECT_FALSE(mask_->covers({175.0f, 205.0f})) << "the other's arm before it";
+  EXPECT_TRUE(mask_->covers({300.0f, 240.0f})) << "the other's trunk";
+  // The own body is bright: nothing of it is seen where the other was.
+  std::vector<float> pixels(3u * kSide * kSide);
+  const auto column = [](float x_px) {
+    return static_cast<int>(128.0f + (x_px - 300.0f) * 256.0f / 550.0f);
+  };
+  for (int y = 0; y < kSide; ++y)
+    for (int x = column(90.0f); x < column(210.0f); ++x)
+      pixels[3 * static_cast<std::size_t>(y * kSide + x)] = 1.0f;
+  mask_->paint_over(pixels);
+  const int row = static_cast<int>(128.0f + (240.0f - 300.0f) * 256.0f / 550.0f);
+  EXPECT_NEAR(pixels[3 * static_cast<std::size_t>(row * kSide + column(300.0f))], 0.0f, 0.05f);
+  EXPECT_EQ(pixels[3 * static_cast<std::size_t>(row * kSide + column(150.0f))], 1.0f);
+}
+
 TEST_F(BodyMaskTest, LimbsThatAreGuessedHideNothing) {
   SeenBody body = upright_body();
   body.visibility[index_of(Landmark::kLeftWrist)] = 0.1f;

@@ -177,7 +177,7 @@ TEST(PeopleTracker, WhatIsNoBodyHarmsNothing) {
       people_[2] = {0.9f, {100.0f, 100.0f, 0.0f, 0.0f}};
       return people_;
     }
-    bool read(const BodyRegion& region, std::span<const SeenBody* const>, ReadBody& out) override {
+    bool read(const BodyRegion& region, const OtherPeople&, ReadBody& out) override {
       for (auto& p : out.body.image_px) p.setConstant(1e30f);
       for (auto& p : out.body.world_m) p.setConstant(-1e30f);
       out.body.visibility.fill(0.9f);
