@@ -139,11 +139,13 @@ void CoupleScene::show(std::size_t frame) {
     }
 }
 
-std::span<const SeenPerson> CoupleScene::find() {
+std::span<const SeenPerson> CoupleScene::find(std::span<const SeenBody* const> without) {
+  std::array<bool, 2> is_out{};
+  for (const SeenBody* body : without) is_out[nearer(frame_, *body)] = true;
   std::size_t count = 0;
   for (std::size_t i = 0; i < 2; ++i) {
     BodyRegion seen = region(frame_, i);
-    if (hidden(frame_, i) > 1.0 - kFound || !is_in_picture(seen)) continue;
+    if (is_out[i] || hidden(frame_, i) > 1.0 - kFound || !is_in_picture(seen)) continue;
     seen.centre_x_px += static_cast<float>(0.01 * random_.normal()) * seen.side_px;
     seen.centre_y_px += static_cast<float>(0.01 * random_.normal()) * seen.side_px;
     people_[count++] = {0.9f, seen};

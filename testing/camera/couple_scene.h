@@ -50,7 +50,7 @@ class CoupleScene final : public PeopleVision {
 
   // The picture that is looked at.
   void show(std::size_t frame);
-  std::span<const SeenPerson> find() override;
+  std::span<const SeenPerson> find(std::span<const SeenBody* const> without) override;
   bool read(const BodyRegion& region, const OtherPeople& others, ReadBody& out) override;
   std::optional<PictureColour> colour(const Eigen::Vector2f& place_px) override;
 

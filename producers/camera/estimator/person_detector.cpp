@@ -29,13 +29,22 @@ Result<PersonDetector> PersonDetector::make(EngineKind engine, PoseGraph graph) 
 }
 
 std::span<const SeenPerson> PersonDetector::find(const cv::Mat& picture, float least_score) {
+  look(picture);
+  return find_looked(least_score);
+}
+
+// The whole picture in a square, black bars beside it.
+const BodyRegion& PersonDetector::look(const cv::Mat& picture) {
   const auto width = static_cast<float>(picture.cols), height = static_cast<float>(picture.rows);
-  // The whole picture in a square, black bars beside it.
-  const BodyRegion whole{0.5f * width, 0.5f * height, std::max(width, height), 0.0f};
-  sample_region(picture, whole, kSide_px, Beyond::kBlack, -1.0f, 1.0f, engine_->input());
+  whole_ = {0.5f * width, 0.5f * height, std::max(width, height), 0.0f};
+  sample_region(picture, whole_, kSide_px, Beyond::kBlack, -1.0f, 1.0f, engine_->input());
+  return whole_;
+}
+
+std::span<const SeenPerson> PersonDetector::find_looked(float least_score) {
   if (!engine_->run()) return {};
   boxes_.decode(engine_->output(0), engine_->output(1), least_score);
-  const RegionFrame frame(whole);
+  const RegionFrame frame(whole_);
   std::size_t people = 0;
   while (!boxes_.is_empty() && people < kMostPeople) {
     const AnchorBox box = boxes_.take_surest();

@@ -35,6 +35,11 @@ class PersonDetector {
 
   // Those with at least the score, the surest first; good until the next call.
   std::span<const SeenPerson> find(const cv::Mat& blue_green_red, float least_score);
+  // The same in two steps: what the network is to see, the picture in a square, may be changed in
+  // between.
+  const BodyRegion& look(const cv::Mat& blue_green_red);
+  std::span<float> input() { return engine_->input(); }
+  std::span<const SeenPerson> find_looked(float least_score);
 
  private:
   static constexpr std::size_t kAnchors = 2254;
@@ -44,6 +49,7 @@ class PersonDetector {
 
   std::unique_ptr<PoseEngine> engine_;
   AnchorBoxes boxes_;
+  BodyRegion whole_;  // of the picture that is looked at
   std::array<SeenPerson, kMostPeople> people_;
 };
 

@@ -42,29 +42,30 @@ constexpr float kSeen = 0.3f;
 
 }  // namespace
 
-void BodyMask::begin(const BodyRegion& region) {
+void BodyMask::begin(const BodyRegion& region, int side_px) {
+  side_px_ = std::clamp(side_px, 1, kMostSide_px);
   frame_ = RegionFrame(region);
-  scale_ = static_cast<float>(kSide_px) / std::max(1.0f, region.side_px);
+  scale_ = static_cast<float>(side_px_) / std::max(1.0f, region.side_px);
   if (!is_empty_) cells_.fill(Cell::kFree);
   is_empty_ = true;
 }
 
 Eigen::Vector2f BodyMask::place(const Eigen::Vector2f& p_px) const {
-  constexpr float kHalf = 0.5f * static_cast<float>(kSide_px);
-  return Eigen::Vector2f(kHalf, kHalf) + scale_ * frame_.offset(p_px);
+  const float half = 0.5f * static_cast<float>(side_px_);
+  return Eigen::Vector2f(half, half) + scale_ * frame_.offset(p_px);
 }
 
 void BodyMask::fill(const Eigen::Vector2f& a, const Eigen::Vector2f& b, float radius, Cell cell) {
-  constexpr auto kEdge = static_cast<float>(kSide_px);
-  if (!a.allFinite() || !b.allFinite() || !(radius < kEdge) ||
-      std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff()) > 8.0f * kEdge)
+  const auto edge = static_cast<float>(side_px_);
+  if (!a.allFinite() || !b.allFinite() || !(radius < edge) ||
+      std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff()) > 8.0f * edge)
     return;
   is_empty_ = false;
   const auto low = [&](float p, float q) {
-    return static_cast<int>(std::clamp(std::min(p, q) - radius, 0.0f, kEdge));
+    return static_cast<int>(std::clamp(std::min(p, q) - radius, 0.0f, edge));
   };
   const auto high = [&](float p, float q) {
-    return static_cast<int>(std::clamp(std::max(p, q) + radius + 1.0f, 0.0f, kEdge));
+    return static_cast<int>(std::clamp(std::max(p, q) + radius + 1.0f, 0.0f, edge));
   };
   const Eigen::Vector2f bar = b - a;
   const float squared = std::max(bar.squaredNorm(), 1e-6f);
@@ -98,8 +99,8 @@ void BodyMask::set(const SeenBody& body, float thicker, Cell cell) {
 
 bool BodyMask::covers(const Eigen::Vector2f& place_px) const {
   const Eigen::Vector2f p = place(place_px);
-  constexpr auto kEdge = static_cast<float>(kSide_px);
-  if (!(p.x() >= 0.0f) || !(p.y() >= 0.0f) || !(p.x() < kEdge) || !(p.y() < kEdge)) return false;
+  const auto edge = static_cast<float>(side_px_);
+  if (!(p.x() >= 0.0f) || !(p.y() >= 0.0f) || !(p.x() < edge) || !(p.y() < edge)) return false;
   return is_masked(static_cast<int>(p.x()), static_cast<int>(p.y()));
 }
 
@@ -107,7 +108,7 @@ std::optional<Eigen::Vector3f> BodyMask::mean(std::span<const float> pixels, int
                                               int y) const {
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   int count = 0;
-  for (int i = 0; i < kFarthestBeside && count < kBeside && x >= 0 && x < kSide_px;
+  for (int i = 0; i < kFarthestBeside && count < kBeside && x >= 0 && x < side_px_;
        ++i, x += step) {
     const Cell cell = cells_[index(x, y)];
     if (cell == Cell::kMasked && count > 0) break;
@@ -133,11 +134,11 @@ void BodyMask::paint_run(std::span<float> pixels, int from, int to, int y) const
 
 void BodyMask::paint_over(std::span<float> pixels) const {
   if (is_empty_) return;
-  for (int y = 0; y < kSide_px; ++y)
-    for (int x = 0; x < kSide_px; ++x) {
+  for (int y = 0; y < side_px_; ++y)
+    for (int x = 0; x < side_px_; ++x) {
       if (!is_masked(x, y)) continue;
       int end = x;
-      while (end < kSide_px && is_masked(end, y)) ++end;
+      while (end < side_px_ && is_masked(end, y)) ++end;
       paint_run(pixels, x, end, y);
       x = end;
     }

@@ -1,7 +1,7 @@
 // BodyMask: takes the bodies of others out of what a network sees of a region, so that it finds the
 // one behind them and not them again.
 //
-// Units/frames: pixels of the picture; the region as sample_region() fills it, kSide_px rows and
+// Units/frames: pixels of the picture; the region as sample_region() fills it, `side_px` rows and
 //               columns of red, green and blue.
 // Ownership:    about 64 KB of its own; writes the caller's numbers; no heap.
 // Threads:      none inside.
@@ -19,10 +19,10 @@ namespace dance {
 
 class BodyMask {
  public:
-  static constexpr int kSide_px = LandmarkNetwork::kSide_px;
+  static constexpr int kMostSide_px = LandmarkNetwork::kSide_px;
 
   // Nobody is in it yet.
-  void begin(const BodyRegion& region);
+  void begin(const BodyRegion& region, int side_px = kMostSide_px);
   void add(const SeenBody& body);
   // Takes this body, and a little around it, out of the mask; nor is it painted over others.
   void spare(const SeenBody& body);
@@ -33,8 +33,9 @@ class BodyMask {
   bool covers(const Eigen::Vector2f& place_px) const;
 
  private:
-  static constexpr std::size_t index(int x, int y) {
-    return static_cast<std::size_t>(y) * kSide_px + static_cast<std::size_t>(x);
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(side_px_) +
+           static_cast<std::size_t>(x);
   }
   Eigen::Vector2f place(const Eigen::Vector2f& place_px) const;
   enum class Cell : std::uint8_t { kFree, kMasked, kSpared };
@@ -47,9 +48,10 @@ class BodyMask {
   void paint_run(std::span<float> pixels, int from, int to, int y) const;
 
   RegionFrame frame_{BodyRegion()};
+  int side_px_ = kMostSide_px;
   float scale_ = 1.0f;
   bool is_empty_ = true;
-  std::array<Cell, static_cast<std::size_t>(kSide_px) * kSide_px> cells_{};
+  std::array<Cell, static_cast<std::size_t>(kMostSide_px) * kMostSide_px> cells_{};
 };
 
 }  // namespace dance

@@ -10,7 +10,12 @@ Result<std::unique_ptr<NetworkVision>> NetworkVision::open(const EstimatorOption
       std::move(networks.detector), std::move(networks.landmarks), options.least_score));
 }
 
-std::span<const SeenPerson> NetworkVision::find() { return detector_.find(picture_, least_score_); }
+std::span<const SeenPerson> NetworkVision::find(std::span<const SeenBody* const> without) {
+  mask_.begin(detector_.look(picture_), PersonDetector::kSide_px);
+  for (const SeenBody* body : without) mask_.add(*body);
+  mask_.paint_over(detector_.input());
+  return detector_.find_looked(least_score_);
+}
 
 bool NetworkVision::read(const BodyRegion& region, const OtherPeople& others, ReadBody& out) {
   network_.look(picture_, region);

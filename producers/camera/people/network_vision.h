@@ -22,7 +22,7 @@ class NetworkVision final : public PeopleVision {
   // Three bytes a pixel.
   void look_at(const cv::Mat& blue_green_red) { picture_ = blue_green_red; }
 
-  std::span<const SeenPerson> find() override;
+  std::span<const SeenPerson> find(std::span<const SeenBody* const> without) override;
   bool read(const BodyRegion& region, const OtherPeople& others, ReadBody& out) override;
   std::optional<PictureColour> colour(const Eigen::Vector2f& place_px) override;
 

@@ -29,8 +29,9 @@ float PeopleTracker::distance(std::size_t a, std::size_t b, MonoTime now) const 
   return (middle(a) - middle(b)).norm() / std::max(1.0f, std::min(side(a), side(b)));
 }
 
-// A region beside two bodies may show the other in one picture. Nobody jumps into another's posture:
-// the body is that person's who was about to be there, and the one whose region it was is looked for.
+// A region beside two bodies may show the other in one picture. Nobody jumps into another's
+// posture: the body is that person's who was about to be there, and the one whose region it was is
+// looked for.
 void PeopleTracker::reassign_bodies(MonoTime now) {
   for (std::size_t a = 0; a < options_.people; ++a)
     for (std::size_t b = 0; b < options_.people; ++b) {

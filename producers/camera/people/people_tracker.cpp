@@ -4,43 +4,17 @@
 #include <cmath>
 #include <utility>
 
-#include "producers/camera/people/assignment.h"
+#include "producers/camera/people/person_costs.h"
 
 namespace dance {
 namespace {
 
-// In lengths of the body's measure, mean of joints: bodies that are nearer are one.
-constexpr float kSameBody = 0.06f;
-// Detections nearer than this to the region of somebody who is tracked are that person.
-constexpr float kSame_sides = 0.1f;
 constexpr float kLeastSide_px = 16.0f;
 // Regions nearer than this show parts of each other.
 constexpr float kOverlap_sides = 0.25f;
 // What is behind another can only be guessed.
 constexpr float kCovered = 0.25f;
 constexpr float kFrontWeight = 0.2f;
-
-// What a detection costs as a missing person: squares over variances.
-constexpr float kPlaceSd_sides = 0.1f, kPlaceSd_sides_per_s = 0.6f, kMostPlace = 12.0f;
-constexpr float kSizeSd = 0.2f, kMostSize = 6.0f;
-constexpr float kLookWeight = 1.5f;
-constexpr std::size_t kMoreCandidates = 2;
-constexpr float kStranger = 6.0f, kNobody = 15.0f;
-constexpr float kOtherLook = 4.0f;
-
-// Places where colours are looked for, in a region; the middle half of its height.
-constexpr int kColourColumns = 48, kColourRows = 28, kLeastColours = 25;
-constexpr float kOwnColour = 2.0f, kOthersColour = 5.0f;
-// A gap that the solver bridges as one of the same dancer.
-constexpr Duration kShortGap = Duration::ms(500);
-
-bool are_one_body(const SeenBody& a, const SeenBody& b) {
-  float sum = 0.0f;
-  for (const Landmark l : kBodyJoints)
-    sum += (a.image_px[index_of(l)] - b.image_px[index_of(l)]).head<2>().norm();
-  return sum / static_cast<float>(kBodyJoints.size()) <
-         kSameBody * std::max(1.0f, std::min(a.size_px(), b.size_px()));
-}
 
 float lowest_px(const SeenBody& body) {
   return std::max(body.image_px[index_of(Landmark::kLeftAnkle)].y(),
@@ -91,7 +65,7 @@ bool PeopleTracker::read(PeopleVision& vision, const BodyRegion& region, MonoTim
   for (std::size_t i = 0; i < options_.people; ++i) {
     if (const SeenBody* other = present(i)) {
       if (overlaps(*other)) before[count_before++] = other;
-    } else if (person && tracks_[i].next()) {
+    } else if (person) {
       expected[i] = tracks_[i].expected_body(now);
       if (i != *person && expected[i] && overlaps(*expected[i]))
         behind[count_behind++] = &*expected[i];
@@ -169,177 +143,6 @@ bool PeopleTracker::is_of_somebody(const SeenBody& body) const {
   for (std::size_t i = 0; i < options_.people; ++i)
     if (const SeenBody* other = present(i); other && are_one_body(*other, body)) return true;
   return false;
-}
-
-// Where across the region most of a person's colours are that nobody else has.
-std::optional<float> PeopleTracker::middle_of_colours(PeopleVision& vision, std::size_t person,
-                                                      const BodyRegion& region) const {
-  const LookModel& own = tracks_[person].look;
-  if (!own.is_known()) return std::nullopt;
-  std::array<int, kColourColumns> own_places{};
-  int count = 0;
-  const float left_px = region.centre_x_px - 0.5f * region.side_px,
-              top_px = region.centre_y_px - 0.3f * region.side_px;
-  const float step_px = region.side_px / static_cast<float>(kColourColumns);
-  for (int column = 0; column < kColourColumns; ++column)
-    for (int row = 0; row < kColourRows; ++row) {
-      const auto colour = vision.colour({left_px + (static_cast<float>(column) + 0.5f) * step_px,
-                                         top_px + (static_cast<float>(row) + 0.5f) * step_px});
-      if (!colour || own.distance(*colour) > kOwnColour) continue;
-      bool is_others = false;
-      for (std::size_t i = 0; i < options_.people; ++i)
-        if (i != person && found_[i].is_found && tracks_[i].look.is_known() &&
-            tracks_[i].look.distance(*colour) < kOthersColour)
-          is_others = true;
-      if (is_others) continue;
-      ++own_places[static_cast<std::size_t>(column)];
-      ++count;
-    }
-  if (count < kLeastColours) return std::nullopt;
-  int sum = 0;
-  for (int column = 0; column < kColourColumns; ++column) {
-    sum += own_places[static_cast<std::size_t>(column)];
-    if (2 * sum >= count) return left_px + (static_cast<float>(column) + 0.5f) * step_px;
-  }
-  return std::nullopt;
-}
-
-// Where a missing person is expected, where that one's colours are; later on where another is who
-// may be before that one, if the colours are seen there.
-std::optional<BodyRegion> PeopleTracker::region_to_probe(PeopleVision& vision, std::size_t person,
-                                                         MonoTime now) const {
-  const PersonTrack& track = tracks_[person];
-  const Duration away = now - track.seen();
-  if (!track.was_ever_seen() || away > options_.forget_after || now <= track.seen())
-    return std::nullopt;
-  BodyRegion region = track.region();
-  Eigen::Vector2f middle = track.expected_px(now);
-  if (away > options_.probe_for) {
-    float least = region.side_px;
-    const SeenBody* before = nullptr;
-    for (std::size_t i = 0; i < options_.people; ++i) {
-      if (i == person || !found_[i].is_found) continue;
-      const float apart = (centre_of(found_[i].body.next_region()) - middle).norm();
-      if (apart < least) {
-        least = apart;
-        before = &found_[i].body;
-      }
-    }
-    if (before == nullptr) return std::nullopt;
-    middle = centre_of(before->next_region());
-  }
-  region.centre_x_px = middle.x();
-  region.centre_y_px = middle.y();
-  const auto middle_px = middle_of_colours(vision, person, region);
-  if (middle_px)
-    region.centre_x_px = *middle_px;
-  else if (away > options_.probe_for)
-    return std::nullopt;
-  return region;
-}
-
-void PeopleTracker::probe_missing(PeopleVision& vision, MonoTime now, const Reads& reads) {
-  ReadBody seen;
-  for (std::size_t i = 0; i < options_.people; ++i) {
-    PersonTrack& track = tracks_[i];
-    if (!reads[i] || found_[i].is_found) continue;
-    const std::optional<BodyRegion> region = region_to_probe(vision, i, now);
-    if (!region || !read(vision, *region, now, std::nullopt, seen) ||
-        !track.is_plausible(seen.body.next_region(), now) || is_of_somebody(seen.body))
-      continue;
-    const auto off =
-        track.look.is_known() ? track.look.distance(look_of(seen.body, vision)) : std::nullopt;
-    if (off ? *off > kOtherLook : now - track.seen() > options_.probe_for) continue;
-    take(i, *region, seen, now - track.seen() > kShortGap);
-  }
-}
-
-float PeopleTracker::cost_of(std::size_t person, const Candidate& candidate, MonoTime now) const {
-  const PersonTrack& track = tracks_[person];
-  if (!track.was_ever_seen()) return kStranger;
-  const Duration away = now - track.seen();
-  const std::optional<float> look =
-      track.look.is_known() ? track.look.distance(candidate.look) : std::nullopt;
-  float cost = kLookWeight * look.value_or(0.0f);
-  // Long away: who comes is another, or looks as this one did.
-  if (away > options_.forget_after)
-    return look && *look < kOtherLook ? std::min(cost, kStranger) : kStranger;
-  const float side = track.region().side_px;
-  const float off_sides =
-      (centre_of(candidate.region) - track.expected_px(now)).norm() / std::max(1.0f, side);
-  const float sd = kPlaceSd_sides + kPlaceSd_sides_per_s * static_cast<float>(away.as_seconds());
-  const float size = std::log(candidate.region.side_px / std::max(1.0f, side)) / kSizeSd;
-  cost += std::min(off_sides * off_sides / (sd * sd), kMostPlace);
-  return cost + std::min(size * size, kMostSize);
-}
-
-// From the left to the right, so that persons who were never seen are numbered in this order.
-std::size_t PeopleTracker::find_candidates(PeopleVision& vision, MonoTime now, std::size_t wanted) {
-  std::size_t count = 0;
-  // More than are missing, so that a bystander is in nobody's way; but not the whole street.
-  std::size_t may_read = wanted + kMoreCandidates;
-  for (const SeenPerson& person : vision.find()) {
-    if (count == candidates_.size() || may_read == 0) break;
-    bool is_tracked = false;
-    for (std::size_t i = 0; i < options_.people; ++i) {
-      const SeenBody* other = present(i);
-      is_tracked = is_tracked ||
-                   (other && (centre_of(other->next_region()) - centre_of(person.region)).norm() <
-                                 kSame_sides * person.region.side_px);
-    }
-    if (is_tracked) continue;
-    --may_read;
-    Candidate& candidate = candidates_[count];
-    if (!read(vision, person.region, now, std::nullopt, candidate.seen) ||
-        is_of_somebody(candidate.seen.body))
-      continue;
-    const bool is_double = std::any_of(
-        candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(count),
-        [&](const Candidate& c) { return are_one_body(c.seen.body, candidate.seen.body); });
-    if (is_double) continue;
-    candidate.region = candidate.seen.body.next_region();
-    candidate.look = look_of(candidate.seen.body, vision);
-    ++count;
-  }
-  std::sort(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(count),
-            [](const Candidate& a, const Candidate& b) {
-              return a.region.centre_x_px < b.region.centre_x_px;
-            });
-  return count;
-}
-
-void PeopleTracker::search(PeopleVision& vision, MonoTime now, const Reads& reads) {
-  std::array<std::size_t, kMostDancers> missing{};
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < options_.people; ++i)
-    if (reads[i] && !found_[i].is_found) missing[count++] = i;
-  if (count == 0) return;
-  const bool is_due = !last_search_.is_set() || now < last_search_ ||
-                      now - last_search_ >= options_.search_interval;
-  if (!is_due) return;
-  last_search_ = now;
-  ++counters_.searches;
-  const std::size_t candidates = find_candidates(vision, now, count);
-  Assignment::Costs costs{};
-  for (std::size_t m = 0; m < count; ++m)
-    for (std::size_t c = 0; c < candidates; ++c)
-      // Strangers keep the order from the left to the right.
-      costs[m][c] = cost_of(missing[m], candidates_[c], now) +
-                    0.001f * std::abs(static_cast<float>(m) - static_cast<float>(c));
-  const Assignment best(costs, count, candidates, kNobody);
-  for (std::size_t m = 0; m < count; ++m) {
-    const std::size_t c = best.of(m);
-    if (c == Assignment::kNone) continue;
-    const std::size_t person = missing[m];
-    PersonTrack& track = tracks_[person];
-    if (track.was_ever_seen() && now - track.seen() > options_.forget_after) {
-      const auto look = track.look.distance(candidates_[c].look);
-      if (!look || *look > kOtherLook) {
-        forget(person);
-      }
-    }
-    take(person, candidates_[c].region, candidates_[c].seen, true);
-  }
 }
 
 void PeopleTracker::resolve_all_limbs(MonoTime now) {

@@ -93,10 +93,12 @@ class PeopleTracker {
   std::optional<float> middle_of_colours(PeopleVision& vision, std::size_t person,
                                          const BodyRegion& region) const;
   void search(PeopleVision& vision, MonoTime now, const Reads& reads);
-  std::size_t find_candidates(PeopleVision& vision, MonoTime now, std::size_t wanted);
+  std::size_t find_candidates(PeopleVision& vision, MonoTime now, std::size_t wanted,
+                              bool only_by_look);
   // Of the tracked, who is nearest to the camera first.
   std::array<std::size_t, kMostDancers> from_front() const;
-  float cost_of(std::size_t person, const Candidate& candidate, MonoTime now) const;
+  float cost_of(std::size_t person, const Candidate& candidate, MonoTime now,
+                bool only_by_look) const;
   void judge_identities(PeopleVision& vision, MonoTime now);
   bool is_refused(std::size_t person, const PersonLook& look);
   float evidence_of_exchange(std::size_t a, std::size_t b, const Looks& looks) const;

@@ -27,9 +27,10 @@ struct ReadBody {
 
 // Who else is in a region; all of them overlap it.
 struct OtherPeople {
-  // Nearer to the camera than the body that is wished: not looked at, and what they cover is guessed.
+  // Nearer to the camera than the wished body: not looked at, and what they cover is guessed.
   std::span<const SeenBody* const> before;
-  // Not read yet, where they are expected: not looked at, but for where the wished body is expected.
+  // Where they are expected, not read yet: not looked at, but for where the wished body is
+  // expected.
   std::span<const SeenBody* const> behind;
   const SeenBody* own = nullptr;  // where the wished body is expected; null: not known
 };
@@ -37,8 +38,9 @@ struct OtherPeople {
 class PeopleVision {
  public:
   virtual ~PeopleVision() = default;
-  // A pass over the whole picture: the surest first.
-  virtual std::span<const SeenPerson> find() = 0;
+  // A pass over the whole picture: the surest first. `without` are not looked at, so that who is
+  // beside or half behind them is found.
+  virtual std::span<const SeenPerson> find(std::span<const SeenBody* const> without) = 0;
   // The body in the region, with `presence` as the network has it.
   virtual bool read(const BodyRegion& region, const OtherPeople& others, ReadBody& out) = 0;
   virtual std::optional<PictureColour> colour(const Eigen::Vector2f& place_px) = 0;

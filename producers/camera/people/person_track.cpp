@@ -15,7 +15,18 @@ constexpr float kSpeedFades_s = 0.5f;
 // After so long a body may be in any posture.
 constexpr Duration kKeepsPosture = Duration::ms(250);
 
+// In lengths of the body's measure, mean of joints.
+constexpr float kSameBody = 0.06f;
+
 }  // namespace
+
+bool are_one_body(const SeenBody& a, const SeenBody& b) {
+  float sum = 0.0f;
+  for (const Landmark l : kBodyJoints)
+    sum += (a.image_px[index_of(l)] - b.image_px[index_of(l)]).head<2>().norm();
+  return sum / static_cast<float>(kBodyJoints.size()) <
+         kSameBody * std::max(1.0f, std::min(a.size_px(), b.size_px()));
+}
 
 Eigen::Vector2f PersonTrack::expected_px(MonoTime now) const {
   const float passed_s = static_cast<float>((now - seen_).as_seconds());

@@ -23,6 +23,9 @@ constexpr std::array<Landmark, 10> kBodyJoints{
     Landmark::kLeftHip,      Landmark::kRightHip,      Landmark::kLeftKnee,  Landmark::kRightKnee,
     Landmark::kLeftAnkle,    Landmark::kRightAnkle};
 
+// Whether two regions have come to the same body.
+bool are_one_body(const SeenBody& a, const SeenBody& b);
+
 class PersonTrack {
  public:
   // Where the network is to look; none while the person is not tracked.
@@ -38,7 +41,7 @@ class PersonTrack {
   // The last body, moved to where it is expected now. None where it says nothing any more.
   std::optional<SeenBody> expected_body(MonoTime now) const;
   // How far a body's joints are from where the last one's are expected now, the mean in lengths of
-  // its measure; sides exchanged where that is nearer. None where the last one says nothing any more.
+  // its measure; sides exchanged where that is nearer. None as above.
   std::optional<float> off_course(const SeenBody& body, MonoTime now) const;
 
   // The body that was read in a picture; steadies where it is looked for next.

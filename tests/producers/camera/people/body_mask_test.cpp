@@ -8,7 +8,7 @@
 namespace dance {
 namespace {
 
-constexpr int kSide = BodyMask::kSide_px;
+constexpr int kSide = BodyMask::kMostSide_px;
 
 // Upright, 400 pixels high, the middle of the hips at (300, 300).
 SeenBody upright_body() {

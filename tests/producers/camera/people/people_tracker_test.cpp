@@ -171,7 +171,7 @@ TEST(PeopleTracker, ACameraThatWasUnpluggedShowsTheSame) {
 TEST(PeopleTracker, WhatIsNoBodyHarmsNothing) {
   class Broken final : public PeopleVision {
    public:
-    std::span<const SeenPerson> find() override {
+    std::span<const SeenPerson> find(std::span<const SeenBody* const>) override {
       people_[0] = {0.9f, {std::nanf(""), 0.0f, 200.0f, 0.0f}};
       people_[1] = {0.9f, {1e30f, -1e30f, 1e30f, 1e9f}};
       people_[2] = {0.9f, {100.0f, 100.0f, 0.0f, 0.0f}};
