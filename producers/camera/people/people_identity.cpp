@@ -32,10 +32,10 @@ float PeopleTracker::distance(std::size_t a, std::size_t b, MonoTime now) const 
 // A region beside two bodies may show the other in one picture. Nobody jumps into another's
 // posture: the body is that person's who was about to be there, and the one whose region it was is
 // looked for.
-void PeopleTracker::reassign_bodies(MonoTime now) {
+void PeopleTracker::reassign_bodies(MonoTime now, const Reads& reads) {
   for (std::size_t a = 0; a < options_.people; ++a)
     for (std::size_t b = 0; b < options_.people; ++b) {
-      if (a == b || !found_[a].is_found || is_left_out_[b]) continue;
+      if (a == b || !found_[a].is_found || !reads[b]) continue;
       const SeenBody& body = found_[a].body;
       auto own = tracks_[a].off_course(body, now), others = tracks_[b].off_course(body, now);
       if (!own || !others) continue;

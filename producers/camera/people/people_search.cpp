@@ -15,7 +15,7 @@ constexpr float kSame_sides = 0.1f;
 
 // What a detection costs as a missing person, beside person_costs.h.
 constexpr float kPlaceSd_sides_per_s = 0.6f, kSizeSd = 0.2f, kMostSize = 6.0f;
-constexpr float kStranger = 6.0f, kNobody = 15.0f;
+constexpr float kStranger = 6.0f, kNobody = 15.0f, kNever = 1000.0f;
 constexpr std::size_t kMoreCandidates = 2;
 constexpr float kOtherLook = 4.0f;
 
@@ -117,7 +117,7 @@ float PeopleTracker::cost_of(std::size_t person, const Candidate& candidate, Mon
   const Duration away = now - track.seen();
   const std::optional<float> look =
       track.look.is_known() ? track.look.distance(candidate.look) : std::nullopt;
-  if (only_by_look && !(look && *look < kOtherLook)) return kNobody;
+  if (only_by_look && !(look && *look < kOtherLook)) return kNever;
   float cost = kLookWeight * look.value_or(0.0f);
   // Long away: who comes is another, or looks as this one did.
   if (away > options_.forget_after)
@@ -181,10 +181,12 @@ void PeopleTracker::search(PeopleVision& vision, MonoTime now, const Reads& read
   if (!is_due) return;
   last_search_ = now;
   ++counters_.searches;
-  // What is left of a body that is painted over, or its shadow, wears nobody's clothes.
-  const bool only_by_look =
-      std::all_of(missing.begin(), missing.begin() + static_cast<std::ptrdiff_t>(count),
-                  [&](std::size_t i) { return tracks_[i].look.is_known(); });
+  // What is left of a body that is painted over, or its shadow, wears nobody's clothes. After long
+  // who comes may be another, in any.
+  const bool only_by_look = std::all_of(
+      missing.begin(), missing.begin() + static_cast<std::ptrdiff_t>(count), [&](std::size_t i) {
+        return tracks_[i].look.is_known() && now - tracks_[i].seen() <= options_.forget_after;
+      });
   const std::size_t candidates = find_candidates(vision, now, count, only_by_look);
   Assignment::Costs costs{};
   for (std::size_t m = 0; m < count; ++m)

@@ -175,7 +175,7 @@ std::span<const PersonInPicture> PeopleTracker::update(PeopleVision& vision, Mon
     is_left_out_[i] = i < options_.people && !reads[i] && tracks_[i].next().has_value();
   }
   read_tracked(vision, now, reads);
-  reassign_bodies(now);
+  reassign_bodies(now, reads);
   separate_duplicates(vision, now);
   probe_missing(vision, now, reads);
   search(vision, now, reads);

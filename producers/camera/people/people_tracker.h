@@ -81,7 +81,7 @@ class PeopleTracker {
             std::optional<std::size_t> person, ReadBody& out);
   void read_tracked(PeopleVision& vision, MonoTime now, const Reads& reads);
   void take(std::size_t person, const BodyRegion& region, const ReadBody& seen, bool is_new);
-  void reassign_bodies(MonoTime now);
+  void reassign_bodies(MonoTime now, const Reads& reads);
   void separate_duplicates(PeopleVision& vision, MonoTime now);
   // As seen in this picture, or in the last one by a person who is left out of this; null: missing.
   const SeenBody* present(std::size_t person) const;

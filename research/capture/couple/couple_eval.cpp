@@ -135,6 +135,7 @@ class Evaluation {
  public:
   Evaluation(DrawnCouple& couple, const CoupleWishes& wishes) : couple_(couple), wishes_(wishes) {
     end_ = std::min(couple.frames(), wishes.first_frame + wishes.most_frames);
+    references_.resize(std::max(end_, wishes.first_frame) - wishes.first_frame);
     networks_.model = wishes.model;
     score_.name = couple.name();
   }
@@ -270,7 +271,6 @@ class Evaluation {
     BodySolver solver(SolverOptions{}, couple_.pinhole());
     WristJudge wrists;
     std::vector<double> times;
-    references_.resize(end_ - wishes_.first_frame);
     for (std::size_t f = wishes_.first_frame; f < end_; ++f) {
       DANCE_TRY(const Frame frame,
                 frame_of(f, person == 0 ? DrawnCouple::Who::kLead : DrawnCouple::Who::kFollow));

@@ -10,6 +10,8 @@
 namespace dance {
 namespace {
 
+constexpr const char* kNoWayIn = "this libnats cannot be told to read slowly";
+
 // The library's reading thread takes so long between finding whose a message is and handing it
 // over, which else is a microsecond: its own tests' way in, where this version has it.
 bool slow_down_reading(natsConnection* connection) {
@@ -81,7 +83,7 @@ TEST_F(NatsValuesTest, AWatchEndsWhileValuesComeIn) {
   start_nats(0, 1);
   const auto writer = open(), reader = open();
   ASSERT_TRUE(writer && reader);
-  slow_down_reading(reader->connection.get());
+  if (!slow_down_reading(reader->connection.get())) GTEST_SKIP() << kNoWayIn;
   std::size_t values = 0;
   for (int i = 0; i < 20; ++i) {
     put_some(*writer->values, "room.");
@@ -100,7 +102,7 @@ TEST_F(NatsValuesTest, AConnectionEndsWhileItsAnswersComeIn) {
   for (int i = 0; i < 20; ++i) {
     const auto ending = open();
     ASSERT_TRUE(ending);
-    slow_down_reading(ending->connection.get());
+    if (!slow_down_reading(ending->connection.get())) GTEST_SKIP() << kNoWayIn;
     ending->values->watch("room.>");
     put_some(*writer->values, "room.");
     put_some(*ending->values, "other.");

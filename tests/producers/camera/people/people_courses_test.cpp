@@ -120,5 +120,41 @@ TEST_F(PeopleCourses, OneWhoseClothesAreKnownIsSearchedForWithoutTheOthers) {
   EXPECT_EQ(vision_.without_, 1u);
 }
 
+// Only one of the two is before the camera, in other clothes than the one who is missing.
+TEST_F(PeopleCourses, WhoWearsOtherClothesIsNotTheOneWhoIsMissingUntilThatOneIsForgotten) {
+  for (frame_ = 0; frame_ < 40; ++frame_) {
+    vision_.show(frame_);
+    update();
+  }
+  auto dancers = crossing_couple(12.0);
+  for (CoupleDancer& dancer : dancers) dancer.clothes.fill(PictureColour(0.9f, 0.2f, 0.2f));
+  for (Pose& pose : dancers[0].poses) pose.p_WH_m.x() = 30.0f;
+  SceneCamera camera;
+  camera.middle_m = Eigen::Vector3d(0.0, 0.0, 0.0);
+  CoupleScene others(dancers, kCoupleHz, camera, {}, 2);
+  const auto is_found_after = [&](Duration away) {
+    tracker_.lose_all();
+    others.show(60);
+    const auto people = tracker_.update(others, scene_.time(39) + away);
+    return people[0].is_found || people[1].is_found;
+  };
+  EXPECT_FALSE(is_found_after(Duration::s(3)));
+  EXPECT_TRUE(is_found_after(Duration::s(11)));
+}
+
+TEST_F(PeopleCourses, ABodyIsNotGivenToOneWhoIsLeftOutOfThePicture) {
+  approach();
+  // The other is lost in the picture before.
+  const auto instead = std::exchange(vision_.instead, std::nullopt);
+  vision_.last_blind = 9;
+  EXPECT_FALSE(update()[1].is_found);
+  vision_.show(++frame_);
+  vision_.instead = instead;
+  vision_.last_blind = 0;
+  const auto people = tracker_.update(vision_, scene_.time(frame_), {true, false, true, true});
+  EXPECT_EQ(tracker_.counters().reassigned, 0u);
+  EXPECT_FALSE(people[1].is_found);
+}
+
 }  // namespace
 }  // namespace dance
