@@ -22,10 +22,6 @@ if(DANCE_SANITIZE)
   target_compile_options(dance_settings INTERFACE
     -fsanitize=${DANCE_SANITIZE} -fno-sanitize=null,alignment,object-size -fno-sanitize-recover=all
     -fno-omit-frame-pointer -g1 -O1 ${DANCE_FALSE_WARNINGS_OFF})
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
-    # An eighth of the building time; the code is a little slower.
-    target_compile_options(dance_settings INTERFACE "SHELL:-mllvm -fast-isel")
-  endif()
   target_link_options(dance_settings INTERFACE -fsanitize=${DANCE_SANITIZE})
   # Two hundred programs, four times as fast.
   find_program(DANCE_LLD ld.lld)
