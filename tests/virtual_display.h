@@ -52,8 +52,13 @@ class VirtualDisplay {
   }
   ~VirtualDisplay() {
     if (pid_ <= 0) return;
-    kill(pid_, SIGTERM);
-    waitpid(pid_, nullptr, 0);
+    // It looks at what a signal asked for before it waits, for minutes: one that comes in between is
+    // not seen until the next.
+    constexpr int kAsks = 100;
+    for (int i = 0; waitpid(pid_, nullptr, WNOHANG) == 0; ++i) {
+      kill(pid_, i < kAsks ? SIGTERM : SIGKILL);
+      poll(nullptr, 0, 50);
+    }
   }
   VirtualDisplay(const VirtualDisplay&) = delete;
   VirtualDisplay& operator=(const VirtualDisplay&) = delete;
