@@ -52,8 +52,8 @@ class VirtualDisplay {
   }
   ~VirtualDisplay() {
     if (pid_ <= 0) return;
-    // It looks at what a signal asked for before it waits, for minutes: one that comes in between is
-    // not seen until the next.
+    // It looks at what a signal asked for before it waits, for minutes: one that comes in between
+    // is not seen until the next.
     constexpr int kAsks = 100;
     for (int i = 0; waitpid(pid_, nullptr, WNOHANG) == 0; ++i) {
       kill(pid_, i < kAsks ? SIGTERM : SIGKILL);
