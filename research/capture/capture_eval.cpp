@@ -36,15 +36,15 @@ class CaptureEval {
  private:
   Result<std::unique_ptr<PoseEstimator>> opened(bool tracks) const;
   void begin_sequence();
-  Result<void> take(PoseEstimator& estimator, const Frame& frame, std::string name);
+  Result<void> take(PoseEstimator* of_one, const Frame& frame, std::string name);
   void take_several(const Frame& frame, std::vector<CapturedPerson>& people);
   void take_hands_and_face(const Frame& frame, std::size_t person, CapturedPerson& seen);
   Result<void> compare(PoseEstimator& estimator);
 
   CaptureEvalOptions options_;
   CaptureRun run_;
-  std::unique_ptr<PoseEstimator> still_, moving_;
-  std::unique_ptr<PeopleEstimator> several_;
+  std::unique_ptr<PoseEstimator> still_, moving_;  // of one dancer
+  std::unique_ptr<PeopleEstimator> several_;       // instead of these
   std::unique_ptr<LandmarkNetwork> other_;
   Extras extras_;
   std::vector<HandTracker> hands_;  // of each dancer; none: not asked for
@@ -65,13 +65,15 @@ Result<void> CaptureEval::open() {
     people.people = options_.people;
     people.search_interval = options_.estimator.search_interval;
     DANCE_TRY(several_, PeopleEstimator::open(options_.estimator, people));
+  } else {
+    DANCE_TRY(still_, opened(false));
+    DANCE_TRY(moving_, opened(true));
   }
-  DANCE_TRY(still_, opened(false));
-  DANCE_TRY(moving_, opened(true));
   // What engines do once only is not counted.
   Frame blank;
   blank.image = cv::Mat(64, 64, CV_8UC3, cv::Scalar::all(0));
   for (PoseEstimator* estimator : {still_.get(), moving_.get()}) {
+    if (estimator == nullptr) continue;
     estimator->network().look(blank.image, {32.0f, 32.0f, 64.0f, 0.0f});
     if (!estimator->network().run()) return fail("the network does not run");
   }
@@ -122,8 +124,10 @@ Result<void> CaptureEval::compare(PoseEstimator& estimator) {
 
 // What was seen before says nothing of what comes.
 void CaptureEval::begin_sequence() {
-  moving_->reset();
-  if (several_) several_->reset();
+  if (several_)
+    several_->reset();
+  else
+    moving_->reset();
   for (HandTracker& hands : hands_) hands.reset();
   for (FaceTracker& face : face_) face.reset();
 }
@@ -153,7 +157,7 @@ void CaptureEval::take_several(const Frame& frame, std::vector<CapturedPerson>& 
   }
 }
 
-Result<void> CaptureEval::take(PoseEstimator& estimator, const Frame& frame, std::string name) {
+Result<void> CaptureEval::take(PoseEstimator* of_one, const Frame& frame, std::string name) {
   CaptureFrame& seen = run_.frames.emplace_back();
   seen.name = std::move(name);
   seen.people.resize(options_.people);
@@ -161,6 +165,7 @@ Result<void> CaptureEval::take(PoseEstimator& estimator, const Frame& frame, std
     take_several(frame, seen.people);
     return {};
   }
+  PoseEstimator& estimator = *of_one;
   const std::int64_t start_ns = thread_time_ns();
   const BodyLandmarks& body = estimator.estimate(frame);
   run_.ms += ms_since(start_ns);
@@ -180,10 +185,10 @@ Result<void> CaptureEval::add_picture(const std::string& path) {
     frame.capture_time = MonoTime{} + Duration::seconds(1.0 + static_cast<double>(in_sequence_) /
                                                                   options_.sequence_hz);
     frame.sequence = in_sequence_++;
-    return take(*moving_, frame, std::filesystem::path(path).filename().string());
+    return take(moving_.get(), frame, std::filesystem::path(path).filename().string());
   }
   begin_sequence();
-  return take(*still_, frame, std::filesystem::path(path).filename().string());
+  return take(still_.get(), frame, std::filesystem::path(path).filename().string());
 }
 
 Result<void> CaptureEval::add_video(const std::string& path) {
@@ -203,7 +208,7 @@ Result<void> CaptureEval::add_video(const std::string& path) {
     if (options_.lost_frame == i) frame.image.setTo(cv::Scalar::all(0));
     frame.sequence = i;
     frame.capture_time = MonoTime{} + Duration::s(1) + reel->time();
-    if (auto taken = take(*moving_, frame, name); !taken) return taken;
+    if (auto taken = take(moving_.get(), frame, name); !taken) return taken;
   }
   if (judge_) run_.hands = judge_->figures();
   judge_.reset();
@@ -211,6 +216,10 @@ Result<void> CaptureEval::add_video(const std::string& path) {
 }
 
 CaptureRun CaptureEval::finish() && {
+  if (several_) {
+    run_.of_several = several_->tracker().counters();
+    return std::move(run_);
+  }
   for (const PoseEstimator* estimator : {still_.get(), moving_.get()}) {
     const EstimatorCounters& c = estimator->counters();
     run_.counters.searches += c.searches;
@@ -226,7 +235,6 @@ CaptureRun CaptureEval::finish() && {
     run_.times.network_ns += t.network_ns;
     run_.times.rest_ns += t.rest_ns;
   }
-  if (several_) run_.of_several = several_->tracker().counters();
   return std::move(run_);
 }
 

@@ -13,7 +13,7 @@
 
 namespace dance {
 
-// Waits for an answer from the server, at most so long: the reading thread uses no subscription
+// Waits for an answer from the server, 0.3 s at most: the reading thread uses no subscription
 // any more that had been unsubscribed before the call. False where none came.
 bool reader_has_passed(natsConnection* connection);
 // Ends its threads. What waits for an answer in another thread is told that there will be none.

@@ -1,5 +1,5 @@
 // BodyMask: takes the bodies of others out of what a network sees of a region, so that it finds the
-// one behind them and not them again.
+// wished one, and not one of them or parts of both.
 //
 // Units/frames: pixels of the picture; the region as sample_region() fills it, `side_px` rows and
 //               columns of red, green and blue.

@@ -1,6 +1,6 @@
 // What speaks against a body's being a person's: squares over variances, each bounded.
 //
-// Units/frames: sides of the person's region.
+// Units/frames: `_sides` are sides of the person's region; the others are numbers.
 // Ownership:    constants.
 // Threads:      none.
 // Failure:      none.

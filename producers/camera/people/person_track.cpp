@@ -18,14 +18,18 @@ constexpr Duration kKeepsPosture = Duration::ms(250);
 // In lengths of the body's measure, mean of joints.
 constexpr float kSameBody = 0.06f;
 
+// The mean of the joints; with `other_sides` of a left one from a right one.
+float distance_px(const SeenBody& a, const SeenBody& b, bool other_sides) {
+  float sum = 0.0f;
+  for (std::size_t j = 0; j < kBodyJoints.size(); ++j)
+    sum += (a.place_px(kBodyJoints[j]) - b.place_px(kBodyJoints[j ^ (other_sides ? 1 : 0)])).norm();
+  return sum / static_cast<float>(kBodyJoints.size());
+}
+
 }  // namespace
 
 bool are_one_body(const SeenBody& a, const SeenBody& b) {
-  float sum = 0.0f;
-  for (const Landmark l : kBodyJoints)
-    sum += (a.image_px[index_of(l)] - b.image_px[index_of(l)]).head<2>().norm();
-  return sum / static_cast<float>(kBodyJoints.size()) <
-         kSameBody * std::max(1.0f, std::min(a.size_px(), b.size_px()));
+  return distance_px(a, b, false) < kSameBody * std::max(1.0f, std::min(a.size_px(), b.size_px()));
 }
 
 Eigen::Vector2f PersonTrack::expected_px(MonoTime now) const {
@@ -54,16 +58,10 @@ std::optional<SeenBody> PersonTrack::expected_body(MonoTime now) const {
 }
 
 std::optional<float> PersonTrack::off_course(const SeenBody& body, MonoTime now) const {
-  if (!was_ever_seen() || now - seen_ > kKeepsPosture) return std::nullopt;
-  const Eigen::Vector2f moved = expected_px(now) - centre_of(region_);
-  float straight = 0.0f, exchanged = 0.0f;
-  for (std::size_t j = 0; j < kBodyJoints.size(); ++j) {
-    const Eigen::Vector2f is = body.place_px(kBodyJoints[j]) - moved;
-    straight += (is - body_.place_px(kBodyJoints[j])).norm();
-    exchanged += (is - body_.place_px(kBodyJoints[j ^ 1])).norm();
-  }
-  return std::min(straight, exchanged) /
-         (static_cast<float>(kBodyJoints.size()) * std::max(1.0f, body.size_px()));
+  const auto expected = expected_body(now);
+  if (!expected) return std::nullopt;
+  return std::min(distance_px(body, *expected, false), distance_px(body, *expected, true)) /
+         std::max(1.0f, body.size_px());
 }
 
 void PersonTrack::update(const SeenBody& body, MonoTime now) {
