@@ -33,40 +33,49 @@ struct MusicTrainWishes {
   MusicTraining training;
 };
 
-// A made song teaches less than a recorded one: it is one of many, and simpler.
-constexpr float kMadeWeight = 0.2f;
+// What all made songs count together, where all recorded ones count 1: each of them is one of many,
+// and simpler.
+constexpr float kMadeWeight = 1.5f;
 // A recorded song teaches at these speeds: there are few, and a style is danced to at more tempi
 // than one.
-constexpr std::array kSpeeds{1.0, 0.88, 1.13};
+constexpr std::array kSpeeds{1.0, 0.88, 0.94, 1.06, 1.13};
 // Beside the song as it is, so many others of how it may have been mastered.
 constexpr std::size_t kStudios = 2;
-constexpr std::size_t kMadeStudios = 1;  // of a made song, of which there are many
 
 struct Songs {
   std::vector<TrainingSong> recorded;  // each in all its ways, one after another
   std::vector<TrainingSong> made;
 };
 
+// Of a file that is heard in several ways, which one.
+using WayOf = HeardAs (*)(const std::string& name, std::size_t file, std::size_t way,
+                          std::uint64_t seed);
+
+HeardAs way_of_recorded(const std::string& name, std::size_t, std::size_t way, std::uint64_t seed) {
+  return {.speed = kSpeeds[way % kSpeeds.size()],
+          .studio = way < kSpeeds.size() ? 0 : studio_of(name, way, seed)};
+}
+
+// There are many: each is heard in one way, every other one as a studio mastered it.
+HeardAs way_of_made(const std::string& name, std::size_t file, std::size_t way,
+                    std::uint64_t seed) {
+  return {.speed = 1.0, .studio = file % 2 == 0 ? 0 : studio_of(name, way, seed)};
+}
+
+// All of them count `weight` together.
 Result<std::vector<TrainingSong>> load_songs(const std::vector<std::string>& files, float weight,
-                                             std::span<const double> speeds, std::size_t studios,
-                                             std::uint64_t seed) {
-  const std::size_t ways = speeds.size() * (1 + studios);
+                                             std::size_t ways, WayOf way_of, std::uint64_t seed) {
   std::vector<Result<TrainingSong>> loaded(files.size() * ways, fail("was not loaded"));
   in_two_threads(loaded.size(), [&](std::size_t i) {
     const std::string& file = files[i / ways];
-    const std::size_t way = i % ways;
-    const HeardAs heard_as{
-        .speed = speeds[way % speeds.size()],
-        .studio = way < speeds.size()
-                      ? 0
-                      : studio_of(std::filesystem::path(file).filename().string(), way, seed)};
-    loaded[i] = load_training_song(file, beats_path_beside(file), heard_as);
+    const std::string name = std::filesystem::path(file).filename().string();
+    loaded[i] =
+        load_training_song(file, beats_path_beside(file), way_of(name, i / ways, i % ways, seed));
   });
   std::vector<TrainingSong> songs;
   for (Result<TrainingSong>& song : loaded) {
     if (!song) return tl::make_unexpected(song.error());
-    // A song's ways weigh as much together as one at each speed would.
-    song->weight = weight / static_cast<float>(1 + studios);
+    song->weight = weight / static_cast<float>(loaded.size());
     songs.push_back(std::move(*song));
   }
   return songs;
@@ -114,10 +123,9 @@ Result<void> run(MusicTrainWishes wishes) {
   if (wishes.hold_out == 0)
     if (auto possible = try_whole_file(wishes.out); !possible) return possible;
   Songs songs;
-  DANCE_TRY(songs.recorded,
-            load_songs(wishes.files, 1.0f, kSpeeds, kStudios, wishes.training.seed));
-  DANCE_TRY(songs.made, load_songs(wishes.made, kMadeWeight, std::array{1.0}, kMadeStudios,
-                                   wishes.training.seed));
+  DANCE_TRY(songs.recorded, load_songs(wishes.files, 1.0f, kSpeeds.size() * (1 + kStudios),
+                                       way_of_recorded, wishes.training.seed));
+  DANCE_TRY(songs.made, load_songs(wishes.made, kMadeWeight, 1, way_of_made, wishes.training.seed));
   if (wishes.hold_out > 0) {
     DANCE_TRY(const std::vector<SongEval> evals, hold_out(songs, wishes));
     const std::string text = music_eval_table(evals);
@@ -142,10 +150,10 @@ int main(int argc, char** argv) {
                           "dance music train");
   line.add("AUDIO", wishes.files, "files of music, each with its .beats file beside it").required();
   line.add("-o,--out", wishes.out, "where the model goes").shows_default();
-  line.add("--made", wishes.made,
-           "songs of dance music make: they count a quarter each, and are never held out");
-  line.add("--rounds", wishes.training.rounds, "how often the network sees each moment")
-      .range(1, 100)
+  line.add("--made", wishes.made, "songs of dance music make: they are never held out");
+  line.add("--rounds", wishes.training.rounds,
+           "batches of 32 parts of songs, of 20 s, that the network is taught")
+      .range(1, 100000)
       .shows_default();
   line.add("--patterns", wishes.training.patterns, "how many kinds of bars there are")
       .range(1, 32)

@@ -17,7 +17,6 @@ constexpr std::size_t kFirstMoment_hops = 100;
 constexpr double kOnBeat_s = 0.0151;
 constexpr double kBesideBeat_s = 0.035;
 constexpr float kBesideWeight = 0.3f;
-constexpr std::size_t kEveryOther_hops = 4;  // of the moments that are neither beat nor half
 constexpr std::size_t kChunk_beats = 16;
 constexpr std::size_t kFirstChunk_beat = 8;
 constexpr std::size_t kFewestBeats = kFirstChunk_beat + kChunk_beats + 1;
@@ -46,52 +45,6 @@ void find_tempi(TrainingSong& song, std::span<const double> beats_s) {
   std::sort(tempi.begin(), tempi.end());
   song.least_tempo_bpm = tempi[tempi.size() / 50];
   song.most_tempo_bpm = tempi[tempi.size() - 1 - tempi.size() / 50];
-}
-
-template <std::size_t N>
-void put(LabelledMoments& moments, const std::array<float, N>& row, std::size_t kind,
-         float weight) {
-  moments.features.insert(moments.features.end(), row.begin(), row.end());
-  moments.classes.push_back(static_cast<std::uint8_t>(kind));
-  moments.weights.push_back(weight);
-}
-
-// The song's own tempo against those that a tracker might take for it.
-void find_tempo_moments(LabelledMoments& moments,
-                        std::span<const OnsetStrength::Strengths> strengths, double hop_s,
-                        std::span<const double> beats_s) {
-  constexpr std::size_t kFirst_hops = 300, kEvery_hops = 40;
-  constexpr double kLeast_hops = 27.0, kMost_hops = RhythmPeriods::kMostPeriod_hops;
-  // Beside half and double, too: a tracker looks for the best of what is near.
-  constexpr std::array kLevels{0.485, 0.5, 0.515, 1.94, 2.0, 2.06};
-  constexpr std::array kOthers{0.667, 0.75, 0.8, 0.9, 1.12, 1.25, 1.333, 1.5};
-  constexpr std::array kNearby{0.985, 1.0, 1.015};
-  // Levels are what is to be learnt; other tempi are rarely ambiguous.
-  constexpr float kLevelWeight = 1.0f;
-  RhythmPeriods rhythm;
-  std::array<float, RhythmPeriods::kCount> row;
-  std::array<float, 2> sums{};
-  std::size_t beat = 0;
-  for (std::size_t k = 0; k < strengths.size(); ++k) {
-    rhythm.push(strengths[k]);
-    const double t = static_cast<double>(k + 1) * hop_s;
-    while (beat + 1 < beats_s.size() && beats_s[beat + 1] <= t) ++beat;
-    if (k < kFirst_hops || k % kEvery_hops != 0) continue;
-    if (t < beats_s[beat] || beat + 1 >= beats_s.size()) continue;
-    const double period_hops = (beats_s[beat + 1] - beats_s[beat]) / hop_s;
-    const auto suppose = [&](double factor, std::size_t kind, float weight) {
-      const double supposed = factor * period_hops;
-      if (supposed < kLeast_hops || supposed > kMost_hops) return;
-      rhythm.read(supposed, row);
-      put(moments, row, kind, weight);
-      sums[kind] += weight;
-    };
-    for (const double factor : kNearby) suppose(factor, 0, 1.0f);
-    for (const double factor : kLevels) suppose(factor, 1, kLevelWeight);
-    for (const double factor : kOthers) suppose(factor, 1, 1.0f);
-  }
-  for (std::size_t i = 0; i < moments.weights.size(); ++i)
-    moments.weights[i] /= std::max(sums[moments.classes[i]], 1.0f);
 }
 
 void find_bars(TrainingSong& song, std::span<const OnsetStrength::Strengths> strengths,
@@ -137,34 +90,41 @@ Result<TrainingSong> load_training_song(const std::string& audio_path,
   song.name = std::filesystem::path(audio_path).filename().string();
   find_tempi(song, beats_s);
   OnsetStrength onsets(music.rate_hz);
-  StrokeFeatures features(onsets);
+  RhythmFeatures features(onsets);
   const double hop_s = static_cast<double>(onsets.hop_samples()) / music.rate_hz;
   std::vector<OnsetStrength::Strengths> strengths;
   std::vector<double> times_s;
-  std::array<float, StrokeFeatures::kCount> row;
   std::array<float, 3> sums{};
   std::size_t beat = 0;
+  RhythmSong& rhythm = song.rhythm;
   for (std::span<const float> left(samples); left.size() >= onsets.hop_samples();
        left = left.subspan(onsets.hop_samples())) {
     strengths.push_back(onsets.push(left.first(onsets.hop_samples())));
-    features.push(onsets, strengths.back());
+    const bool is_step = features.push(onsets, strengths.back());
     const double now_s = static_cast<double>(strengths.size()) * hop_s;
     times_s.push_back(now_s - kStrokeDelay_s);
-    const double t = now_s - StrokeFeatures::kDelay_s;
+    if (!is_step) continue;
+    const double t = now_s - RhythmNet::kDelay_s;
     while (beat + 1 < beats_s.size() && beats_s[beat + 1] <= t) ++beat;
-    if (t < beats_s[beat] || beat + 1 >= beats_s.size()) continue;
-    const Moment moment = moment_at(t, beats_s[beat], beats_s[beat + 1]);
-    if (moment.kind == 2 && strengths.size() % kEveryOther_hops != 0) continue;
-    if (strengths.size() < kFirstMoment_hops + StrokeFeatures::kAhead_hops) continue;
-    features.read(row);
-    put(song.strokes, row, moment.kind, moment.weight);
+    Moment moment{2, 0.0f};
+    if (t >= beats_s[beat] && beat + 1 < beats_s.size())
+      moment = moment_at(t, beats_s[beat], beats_s[beat + 1]);
+    if (strengths.size() < kFirstMoment_hops) moment.weight = 0.0f;
+    const auto values = features.values();
+    rhythm.features.insert(rhythm.features.end(), values.begin(), values.end());
+    rhythm.classes.push_back(static_cast<std::uint8_t>(moment.kind));
+    rhythm.weights.push_back(moment.weight);
+    const double beat_s = beat + 1 < beats_s.size() ? beats_s[beat + 1] - beats_s[beat] : 1.0;
+    rhythm.tempi.push_back(static_cast<float>(RhythmNet::place_of_tempo(60.0 / beat_s)));
     sums[moment.kind] += moment.weight;
   }
-  for (std::size_t i = 0; i < song.strokes.weights.size(); ++i)
-    song.strokes.weights[i] /= std::max(sums[song.strokes.classes[i]], 1.0f);
-  find_tempo_moments(song.tempi, strengths, hop_s, beats_s);
+  // Each class weighs the same, so that answers are ratios of likelihoods; a step weighs 1 in the
+  // mean.
+  for (std::size_t i = 0; i < rhythm.weights.size(); ++i)
+    rhythm.weights[i] *= static_cast<float>(rhythm.weights.size()) /
+                         (3.0f * std::max(sums[rhythm.classes[i]], 1.0f));
   find_bars(song, strengths, times_s, beats_s);
-  if (song.bars.empty() || song.strokes.classes.empty())
+  if (song.bars.empty() || rhythm.classes.empty())
     return fail(audio_path + ": ends before its beats do: nothing can be learnt from it");
   return song;
 }
@@ -180,8 +140,10 @@ Result<BeatModel> train_beats(const std::vector<const TrainingSong*>& songs,
         "looked for, 72 to 214 a "
         "minute (give a slow song's at their double), or --patterns asks for more kinds than the "
         "songs have");
-  model.net = fit_stroke_net(songs, training);
-  model.tempo_net = fit_tempo_net(songs, training);
+  std::vector<WeightedRhythm> rhythms;
+  for (const TrainingSong* song : songs) rhythms.push_back({&song->rhythm, song->weight});
+  model.net = fit_rhythm_net(
+      rhythms, {.rounds = training.rounds, .seed = training.seed, .tell = training.tell});
   return model;
 }
 

@@ -21,19 +21,13 @@
 
 #include "core/base/result.h"
 #include "producers/music/tracker/beat_model.h"
+#include "research/beats/rhythm_net_fit.h"
 
 namespace dance {
 
 // Mean strength of each group at each slot of a bar, over some bars in a row; the mean over the
 // hops is 1.
 using BarStrokes = std::array<std::array<float, kPatternSlots>, kOnsetGroups>;
-
-// Moments, a row of features each, and what they are.
-struct LabelledMoments {
-  std::vector<float> features;
-  std::vector<std::uint8_t> classes;
-  std::vector<float> weights;
-};
 
 // What a song teaches.
 struct TrainingSong {
@@ -42,12 +36,11 @@ struct TrainingSong {
   double least_tempo_bpm = 0.0;
   double most_tempo_bpm = 0.0;
   std::vector<BarStrokes> bars;
-  LabelledMoments strokes;  // 0 on a beat, 1 on a half, 2 elsewhere; each class weighs 1
-  LabelledMoments tempi;    // supposed beats: 0 dancers step at it, 1 they do not; so do these
+  RhythmSong rhythm;
 };
 
 struct MusicTraining {
-  int rounds = 12;
+  int rounds = 1500;
   int patterns = 16;
   std::uint64_t seed = 1;
   std::function<void(const std::string&)> tell = [](const std::string&) {
@@ -69,10 +62,6 @@ Result<BeatModel> train_beats(const std::vector<const TrainingSong*>& songs,
                               const MusicTraining& training);
 
 // The parts.
-StrokeNet fit_stroke_net(const std::vector<const TrainingSong*>& songs,
-                         const MusicTraining& training);
-TempoNet fit_tempo_net(const std::vector<const TrainingSong*>& songs,
-                       const MusicTraining& training);
 std::vector<MeterPattern> fit_patterns(const std::vector<const TrainingSong*>& songs,
                                        const MusicTraining& training);
 // Strengths of hops that were heard at hop_times_s, over the beats that begin at beats_s; beats_s

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "core/base/random.h"
-#include "research/predict/matrix_product.h"
+#include "research/matrix_product.h"
 #include "research/predict/predict_training.h"
 
 namespace dance {

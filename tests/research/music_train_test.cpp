@@ -45,57 +45,25 @@ TEST(MusicTraining, SaysThatSongsAreTooSlowToLearnFrom) {
   EXPECT_NE(refused.talk.find("slower"), std::string::npos) << refused.talk;
 }
 
-TEST(MusicTraining, ANetworkTellsBeatsFromHalvesInASongItNeverHeard) {
+TEST(MusicTraining, LabelsWhatANetworkHearsByTheBeatsOfTheSong) {
   const SongOnDisk disk;
-  std::vector<TrainingSong> songs;
-  for (const double bpm : {104.0, 133.0, 176.0}) {
-    const std::string name = "song" + std::to_string(static_cast<int>(bpm));
-    disk.add(name, 24.0, bpm);
-    auto song =
-        load_training_song(disk.folder.path(name + ".wav"), disk.folder.path(name + ".beats"));
-    ASSERT_TRUE(song) << song.error().what;
-    EXPECT_NEAR(song->least_tempo_bpm, bpm, 0.5);
-    songs.push_back(std::move(*song));
+  disk.add("song133", 24.0, 133.0);
+  const auto song =
+      load_training_song(disk.folder.path("song133.wav"), disk.folder.path("song133.beats"));
+  ASSERT_TRUE(song) << song.error().what;
+  EXPECT_NEAR(song->least_tempo_bpm, 133.0, 0.5);
+  const RhythmSong& rhythm = song->rhythm;
+  ASSERT_EQ(rhythm.features.size(), rhythm.classes.size() * RhythmFeatures::kCount);
+  std::array<double, 3> sums{};
+  for (std::size_t i = 0; i < rhythm.classes.size(); ++i) {
+    sums[rhythm.classes[i]] += static_cast<double>(rhythm.weights[i]);
+    if (rhythm.weights[i] > 0.0f) {
+      ASSERT_NEAR(rhythm.tempi[i], RhythmNet::place_of_tempo(133.0), 0.2);
+    }
   }
-  const auto model = train_beats({&songs[0], &songs[2]}, {.rounds = 8, .patterns = 2});
-  ASSERT_TRUE(model);
-  int right = 0, moments = 0;
-  const TrainingSong& other = songs[1];
-  for (std::size_t i = 0; i < other.strokes.classes.size(); ++i) {
-    if (other.strokes.classes[i] == 2) continue;
-    const StrokeMeaning meaning = model->net.judge(std::span<const float, StrokeFeatures::kCount>(
-        other.strokes.features.data() + i * StrokeFeatures::kCount, StrokeFeatures::kCount));
-    right += (meaning.beat > meaning.half) == (other.strokes.classes[i] == 0);
-    ++moments;
-  }
-  ASSERT_GT(moments, 100);
-  EXPECT_GT(right, moments * 8 / 10);
-}
-
-TEST(MusicTraining, ANetworkTellsTheTempoFromItsHalfAndDoubleInASongItNeverHeard) {
-  const SongOnDisk disk;
-  std::vector<TrainingSong> songs;
-  for (const double bpm : {92.0, 100.0, 97.0}) {
-    const std::string name = "song" + std::to_string(static_cast<int>(bpm));
-    disk.add(name, 24.0, bpm);
-    auto song =
-        load_training_song(disk.folder.path(name + ".wav"), disk.folder.path(name + ".beats"));
-    ASSERT_TRUE(song) << song.error().what;
-    songs.push_back(std::move(*song));
-  }
-  const TempoNet net = fit_tempo_net({&songs[0], &songs[1]}, {.rounds = 8});
-  const LabelledMoments& moments = songs[2].tempi;
-  std::array<double, 2> sum{}, count{};
-  for (std::size_t i = 0; i < moments.classes.size(); ++i) {
-    sum[moments.classes[i]] +=
-        static_cast<double>(net.judge(std::span<const float, RhythmPeriods::kCount>(
-            moments.features.data() + i * RhythmPeriods::kCount, RhythmPeriods::kCount)));
-    count[moments.classes[i]] += 1.0;
-  }
-  ASSERT_GT(count[0], 20.0);
-  ASSERT_GT(count[1], 20.0);
-  EXPECT_GT(sum[0] / count[0], 1.0);
-  EXPECT_LT(sum[1] / count[1], -1.0);
+  EXPECT_GT(sums[0], 100.0);
+  EXPECT_NEAR(sums[1], sums[0], 1e-2 * sums[0]);
+  EXPECT_NEAR(sums[2], sums[0], 1e-2 * sums[0]);
 }
 
 TEST(MusicTraining, TheSameSongsGiveTheSameModel) {
@@ -119,10 +87,10 @@ TEST(MusicTraining, AnotherStudioTellsOfTheSameBeatsWithOtherStrokes) {
     return std::move(*song);
   };
   const TrainingSong plain = heard(0), other = heard(7), again = heard(7);
-  EXPECT_EQ(other.strokes.classes, plain.strokes.classes);
+  EXPECT_EQ(other.rhythm.classes, plain.rhythm.classes);
   EXPECT_EQ(other.least_tempo_bpm, plain.least_tempo_bpm);
-  EXPECT_NE(other.strokes.features, plain.strokes.features);
-  EXPECT_EQ(other.strokes.features, again.strokes.features);
+  EXPECT_NE(other.rhythm.features, plain.rhythm.features);
+  EXPECT_EQ(other.rhythm.features, again.rhythm.features);
 }
 
 TEST(MusicTraining, StudiosHangOnNameWayAndSeed) {

@@ -60,6 +60,31 @@ TEST(SongMaker, ASongThatIsKeptBackHasOtherInstrumentsAndStrokes) {
   }
 }
 
+TEST(SongMaker, EveryOtherMixedSongBorrowsFromOtherStyles) {
+  const auto salsa = std::find_if(song_styles().begin(), song_styles().end(),
+                                  [](const SongStyle& style) { return style.name == "salsa"; });
+  ASSERT_NE(salsa, song_styles().end());
+  std::set<int> own;
+  for (const SongLayer& layer : salsa->layers)
+    for (const auto& drums : layer.drums) own.insert(drums.begin(), drums.end());
+  int with_others = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const MadeSong song = make_song(*salsa, 30.0, seed, SongUse::kMixed);
+    std::size_t others = 0;
+    for (const SongNote& note : song.notes) {
+      if (note.channel != MadeSong::kDrumChannel) continue;
+      EXPECT_GE(note.key, 35);
+      EXPECT_LE(note.key, 87);
+      others += own.count(note.key) == 0;
+    }
+    with_others += others > 40;  // more than fills and crashes
+    EXPECT_GE(song.tempo_bpm, salsa->least_tempo_bpm);
+    EXPECT_LE(song.tempo_bpm, salsa->most_tempo_bpm);
+  }
+  EXPECT_GT(with_others, 8);
+  EXPECT_LT(with_others, 32);
+}
+
 TEST(SongMaker, PlaysOnTheBeatsItTells) {
   for (const SongStyle& style : song_styles())
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {

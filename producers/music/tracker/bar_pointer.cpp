@@ -13,7 +13,7 @@ namespace {
 // 0.06 to 0.15, floors from
 // 0.25 to 0.5, stiffness from 50 to 120 and chances of a change of tempo, pattern or bar five times
 //   as large moved the mean F
-// by at most 0.04, and evidence of meanings from 0.2 to 0.3 by 0.015.
+// by at most 0.04.
 constexpr double kFastest_bpm = 214.0;
 constexpr double kSlowest_bpm = 72.0;
 // Of longer beats only each second number of hops is searched: it is as near, in parts of a beat.
@@ -30,10 +30,13 @@ constexpr float kBeatSlip = 1e-3f;        // that the bar goes on elsewhere, a b
 // a beat that was known for half a minute; a hundredth, and after a cut to another song the old
 // beat stays longer.
 constexpr float kForget = 1e-8f;
-constexpr float kMeaningEvidence = 0.2f;
+// A network remembers what it made its mind up by, so its answers hang together. More, and bare
+// drums after a break, or half a beat late for a verse, turn the beat; less, and fast drums are
+// tracked at half of their tempo.
+constexpr float kMeaningEvidence = 0.05f;
 constexpr double kMeaningBlur_s = 0.016;
-// A stroke's likelihood is known so much later than its strengths.
-constexpr double kMeaningLater_s = StrokeFeatures::kDelay_s - OnsetStrength::kDelay_s;
+// What a moment was is known so much later than its strengths, and stands for both hops of a step.
+constexpr double kMeaningLater_s = RhythmNet::kDelay_s - OnsetStrength::kDelay_s + 0.005;
 
 double tempo_weight(double tempo_bpm) {
   const double octaves = std::log(tempo_bpm / kLikelyTempo_bpm) / kTempoSpread;

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "producers/music/tracker/meter_pattern.h"
+#include "producers/music/tracker/net/rhythm_net.h"
 #include "producers/music/tracker/onset_strength.h"
-#include "producers/music/tracker/stroke_net.h"
 
 namespace dance {
 

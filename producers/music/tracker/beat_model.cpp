@@ -14,14 +14,14 @@ namespace dance {
 namespace {
 
 constexpr std::uint32_t kBeatMagic = 0x54424744;  // "DGBT" as bytes
-constexpr std::uint16_t kBeatVersion = 2;
+constexpr std::uint16_t kBeatVersion = 3;
 constexpr float kMostWeight = 1e4f;
 constexpr int kLeastPatternTempo_bpm = 40;
 constexpr int kMostPatternTempo_bpm = 400;
 // Each pattern covers some of the tempi that are searched.
 constexpr int kSlowestOfUse_bpm = 75;
 constexpr int kFastestOfUse_bpm = 200;
-constexpr std::size_t kMostBeatModelBytes = 1 << 16;
+constexpr std::size_t kMostBeatModelBytes = 1 << 20;
 
 // Visits every number that is kept as a float, in the order of the file.
 template <class Net, class Visit>
@@ -29,8 +29,12 @@ void visit_net(Net& net, Visit visit) {
   const auto all = [&](auto& matrix) {
     for (Eigen::Index i = 0; i < matrix.size(); ++i) visit(matrix.data()[i]);
   };
-  all(net.in);
-  all(net.in_bias);
+  for (auto& layer : net.layers) {
+    all(layer.in);
+    all(layer.again);
+    all(layer.in_bias);
+    all(layer.again_bias);
+  }
   all(net.out);
   all(net.out_bias);
 }
@@ -48,7 +52,6 @@ std::vector<std::uint8_t> write_beat_model(const BeatModel& model) {
   out.u16(static_cast<std::uint16_t>(model.patterns.size()));
   const auto put = [&](const float& x) { out.u32(std::bit_cast<std::uint32_t>(x)); };
   visit_net(model.net, put);
-  visit_net(model.tempo_net, put);
   for (const MeterPattern& pattern : model.patterns) {
     out.u16(static_cast<std::uint16_t>(pattern.least_tempo_bpm));
     out.u16(static_cast<std::uint16_t>(pattern.most_tempo_bpm));
@@ -78,7 +81,6 @@ Result<std::shared_ptr<const BeatModel>> read_beat_model(std::span<const std::ui
       is_whole = is_whole && std::abs(x) <= kMostWeight;  // refuses NaN too
     };
     visit_net(model->net, take);
-    visit_net(model->tempo_net, take);
     model->patterns.resize(patterns);
     for (MeterPattern& pattern : model->patterns) {
       pattern.least_tempo_bpm = in.u16();

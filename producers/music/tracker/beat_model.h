@@ -16,16 +16,14 @@
 
 #include "core/base/result.h"
 #include "producers/music/tracker/meter_pattern.h"
-#include "producers/music/tracker/stroke_net.h"
-#include "producers/music/tracker/tempo/tempo_net.h"
+#include "producers/music/tracker/net/rhythm_net.h"
 
 namespace dance {
 
 struct BeatModel {
   static constexpr std::size_t kMostPatterns = 32;
 
-  StrokeNet net;
-  TempoNet tempo_net;
+  RhythmNet net;
   std::vector<MeterPattern> patterns;  // at least one
   std::uint32_t name = 0;              // of the file it was read from
 };

@@ -22,7 +22,7 @@ BeatTracker::BeatTracker(double sample_rate_hz, std::shared_ptr<const BeatModel>
       model_(std::move(model)),
       features_(onsets_),
       pointer_(hop_s_, model_->patterns),
-      tempo_(model_->tempo_net, hop_s_, pointer_.least_period_hops(),
+      tempo_(hop_s_, pointer_.least_period_hops(),
              pointer_.most_period_hops() - pointer_.least_period_hops() + 1),
       lock_(hop_s_),
       hop_(onsets_.hop_samples()) {}
@@ -52,10 +52,9 @@ void BeatTracker::end_hop() {
   const float weight = std::clamp(static_cast<float>(kBreak_hops - since_stroke_hops_) /
                                       static_cast<float>(kBreak_hops - kBreakBegins_hops),
                                   0.0f, 1.0f);
-  features_.push(onsets_, strengths);
-  features_.read(feature_values_);
-  tempo_.push(strengths, weight);
-  pointer_.push(strengths, model_->net.judge(feature_values_), weight, tempo_.of_periods());
+  if (features_.push(onsets_, strengths)) meaning_ = model_->net.step(features_.values(), heard_);
+  tempo_.push(heard_.tempi, weight);
+  pointer_.push(strengths, meaning_, weight, tempo_.of_periods());
 
   const double now_s = static_cast<double>(hops_) * hop_s_;
   lock_.follow(pointer_, now_s - OnsetStrength::kDelay_s, now_s);

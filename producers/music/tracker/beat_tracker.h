@@ -23,7 +23,6 @@
 #include "producers/music/tracker/beat_model.h"
 #include "producers/music/tracker/beat_phase_lock.h"
 #include "producers/music/tracker/onset_strength.h"
-#include "producers/music/tracker/stroke_features.h"
 #include "producers/music/tracker/tempo/tempo_evidence.h"
 
 namespace dance {
@@ -54,11 +53,12 @@ class BeatTracker {
   OnsetStrength onsets_;
   double hop_s_;
   std::shared_ptr<const BeatModel> model_;
-  StrokeFeatures features_;
+  RhythmFeatures features_;
+  RhythmState heard_;
+  StrokeMeaning meaning_;
   BarPointer pointer_;
   TempoEvidence tempo_;
   BeatPhaseLock lock_;
-  std::array<float, StrokeFeatures::kCount> feature_values_{};
   std::vector<float> hop_;
   std::size_t filled_ = 0;
   std::int64_t hops_ = 0;

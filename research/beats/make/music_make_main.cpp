@@ -28,9 +28,14 @@ struct MusicMakeWishes {
                                       "/usr/share/sounds/sf2/TimGM6mb.sf2"};
   std::vector<std::string> styles;  // none: all
   bool is_kept_back = false;
+  bool is_mixed = false;
   int of_each = 5;
   int seed = 1;
   double seconds = 60.0;
+
+  SongUse use() const {
+    return is_kept_back ? SongUse::kKeptBack : is_mixed ? SongUse::kMixed : SongUse::kTaught;
+  }
 };
 
 // fluidsynth ends well whatever it was given, and plays another font or none.
@@ -101,8 +106,7 @@ Result<void> run(const MusicMakeWishes& wishes) {
     for (std::size_t i = 0; i < styles.size(); ++i) {
       const SongStyle& style = *styles[i];
       const auto seed = static_cast<std::uint64_t>(wishes.seed) * 1'000'000 + number;
-      const MadeSong song = make_song(style, wishes.seconds, seed,
-                                      wishes.is_kept_back ? SongUse::kKeptBack : SongUse::kTaught);
+      const MadeSong song = make_song(style, wishes.seconds, seed, wishes.use());
       const std::string stem =
           fmt::format("{}/{}_{}_{:.0f}", wishes.folder, style.name, turn + 1, song.tempo_bpm);
       // Each style is played on each of them in turn.
@@ -125,6 +129,8 @@ int main(int argc, char** argv) {
   line.add("--style", wishes.styles, "songs of this style only, once for each").one_each_time();
   line.add_flag("--kept-back", wishes.is_kept_back,
                 "rows and instruments that other songs never have, to judge a tracker by");
+  line.add_flag("--mixed", wishes.is_mixed,
+                "half of the songs borrow rows, drums and instruments from other styles");
   line.add("--of-each", wishes.of_each, "songs of each style").range(1, 100).shows_default();
   line.add("--seconds", wishes.seconds, "how long each is").range(20.0, 600.0).shows_default();
   line.add("--seed", wishes.seed, "another number makes other songs")
@@ -132,5 +138,10 @@ int main(int argc, char** argv) {
       .shows_default();
   line.add("--soundfont", wishes.soundfonts, "the instruments, taken in turn").one_each_time();
   line.footer(dance::kMusicMakeExamples);
+  line.finally([&]() -> dance::Result<void> {
+    if (wishes.is_mixed && wishes.is_kept_back)
+      return dance::fail("--kept-back and --mixed exclude each other: what borrows keeps nothing");
+    return {};
+  });
   return dance::run_program(line, argc, argv, [&] { return dance::run(wishes); });
 }

@@ -17,6 +17,12 @@ constexpr double kFirstBeat_s = 0.5;
 // Of a row's places, in the most varied song.
 constexpr double kAdded = 0.07;
 constexpr double kLeftOut = 0.15;
+// Of a song's layers, drums and instruments, in every other song.
+constexpr double kBorrowed = 0.35;
+// Of General MIDI: tones that have an onset, and drums.
+constexpr std::uint64_t kPrograms = 96;
+constexpr int kLowestDrum = 35;
+constexpr std::uint64_t kDrums = 47;
 
 using Chord = std::array<int, 3>;  // semitones
 constexpr Chord kMajor{0, 4, 7};
@@ -64,7 +70,10 @@ struct PlayedLayer {
 class SongMaker {
  public:
   SongMaker(const SongStyle& style, double seconds, std::uint64_t seed, SongUse use)
-      : style_(style), is_kept_back_(use == SongUse::kKeptBack), random_(seed) {
+      : style_(style),
+        is_kept_back_(use == SongUse::kKeptBack),
+        is_mixed_(use == SongUse::kMixed),
+        random_(seed) {
     song_.tempo_bpm = random_.uniform(style.least_tempo_bpm, style.most_tempo_bpm);
     lay_beats(seconds);
     swing_ = random_.uniform(style.least_swing, style.most_swing);
@@ -110,17 +119,35 @@ class SongMaker {
     }
   }
 
+  // Bands of one style borrow from others, and play on what they have: a model that is taught so
+  // knows more than the styles.
+  const SongLayer& borrowed(const SongLayer& own) {
+    std::vector<const SongLayer*> others;
+    for (const SongStyle& style : song_styles())
+      for (const SongLayer& layer : style.layers)
+        if (layer.voice == own.voice && layer.drums.empty() == own.drums.empty())
+          others.push_back(&layer);
+    return *others[random_.below(others.size())];
+  }
+
   void choose_layers() {
-    for (const SongLayer& layer : style_.layers) {
+    const double borrows = is_mixed_ && random_.uniform() < 0.5 ? kBorrowed : 0.0;
+    const auto borrows_now = [&] { return is_mixed_ && random_.uniform() < borrows; };
+    for (const SongLayer& own : style_.layers) {
+      const SongLayer& layer = borrows_now() ? borrowed(own) : own;
       const Instrument& instrument = instrument_of(layer.voice);
       const std::vector<int>& programs = !layer.programs.empty() ? layer.programs
                                          : is_kept_back_         ? instrument.kept_programs
                                                                  : instrument.programs;
-      song_.programs[static_cast<std::size_t>(instrument.channel)] =
-          programs[random_.below(programs.size())];
-      if (random_.uniform() >= layer.chance) continue;
+      int& program = song_.programs[static_cast<std::size_t>(instrument.channel)];
+      program = programs[random_.below(programs.size())];
+      if (layer.voice != SongVoice::kDrums && borrows_now())
+        program = static_cast<int>(random_.below(kPrograms));
+      if (random_.uniform() >= own.chance) continue;
       PlayedLayer played{&layer, a_row_of(layer), {}, 0.0};
       if (!layer.drums.empty()) played.drums = layer.drums[random_.below(layer.drums.size())];
+      if (!layer.drums.empty() && borrows_now())
+        for (int& key : played.drums) key = kLowestDrum + static_cast<int>(random_.below(kDrums));
       played.loudness = layer.loudness * random_.uniform(0.65, 1.15);
       layers_.push_back(played);
     }
@@ -246,6 +273,7 @@ class SongMaker {
 
   const SongStyle& style_;
   bool is_kept_back_;
+  bool is_mixed_;
   Random random_;
   MadeSong song_;
   double swing_ = 0.5;

@@ -35,7 +35,11 @@ struct MadeSong {
 
 // Songs that are kept back have rows and instruments that the others never have: a tracker that
 // learnt from the others has not heard them.
-enum class SongUse { kTaught, kKeptBack };
+enum class SongUse {
+  kTaught,
+  kMixed,  // taught too; half of the songs borrow layers, drums and instruments from other styles
+  kKeptBack,  // rows and instruments that the others never have
+};
 
 MadeSong make_song(const SongStyle& style, double seconds, std::uint64_t seed,
                    SongUse use = SongUse::kTaught);

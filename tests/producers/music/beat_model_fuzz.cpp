@@ -6,7 +6,7 @@
 #include "producers/music/tracker/beat_tracker.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  // Of 28 kB no mutation would be whole: half of the input stands for the first weights, half for
+  // Of 230 kB no mutation would be whole: half of the input stands for the first weights, half for
   // the last patterns.
   static const std::vector<std::uint8_t> kWhole =
       dance::write_beat_model(*dance::built_in_beat_model());
@@ -23,10 +23,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const dance::MeterPattern& pattern : (*model)->patterns)
     DANCE_ASSERT(pattern.least_tempo_bpm >= 40 && pattern.most_tempo_bpm <= 400 &&
                  pattern.least_tempo_bpm < pattern.most_tempo_bpm);
-  dance::StrokeMeaning meaning{};
-  std::array<float, dance::StrokeFeatures::kCount> features;
+  std::array<float, dance::RhythmFeatures::kCount> features;
   for (std::size_t i = 0; i < features.size(); ++i) features[i] = static_cast<float>(i % 7) - 3.0f;
-  meaning = (*model)->net.judge(features);
+  dance::RhythmState state;
+  dance::StrokeMeaning meaning{};
+  for (int step = 0; step < 3; ++step) meaning = (*model)->net.step(features, state);
   DANCE_ASSERT(std::abs(meaning.beat) <= 5.0f && std::abs(meaning.half) <= 5.0f);
   return 0;
 }

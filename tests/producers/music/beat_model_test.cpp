@@ -40,7 +40,7 @@ TEST(BeatModel, RefusesWhatIsDamaged) {
   EXPECT_FALSE(changed(0, whole[0] ^ 1));
   for (const int patterns : {0, 1, 33, 255})
     EXPECT_FALSE(changed(kPatternsByte, static_cast<std::uint8_t>(patterns))) << patterns;
-  for (const int version : {1, 3}) {
+  for (const int version : {1, 2, 4}) {
     const auto other = changed(kVersionByte, static_cast<std::uint8_t>(version));
     ASSERT_FALSE(other);
     EXPECT_NE(other.error().what.find("version " + std::to_string(version)), std::string::npos)
@@ -50,10 +50,10 @@ TEST(BeatModel, RefusesWhatIsDamaged) {
 
 TEST(BeatModel, RefusesNumbersNoTrackerCouldUse) {
   BeatModel model = *built_in_beat_model();
-  model.net.in(3, 4) = std::numeric_limits<float>::quiet_NaN();
+  model.net.layers[0].in(3, 4) = std::numeric_limits<float>::quiet_NaN();
   EXPECT_FALSE(read_beat_model(write_beat_model(model)));
   model = *built_in_beat_model();
-  model.tempo_net.out(1, 2) = std::numeric_limits<float>::quiet_NaN();
+  model.net.layers[1].again(1, 2) = std::numeric_limits<float>::quiet_NaN();
   EXPECT_FALSE(read_beat_model(write_beat_model(model)));
   model = *built_in_beat_model();
   model.patterns.front().least_tempo_bpm = 210;

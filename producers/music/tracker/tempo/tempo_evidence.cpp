@@ -9,39 +9,44 @@
 namespace dance {
 namespace {
 
-// How fast a level that is likelier than its half or double gains on it, each hop: in less than a
-// second, once it is clear, and the last seconds' rhythm changes slowly.
-constexpr float kRhythmEvidence = 0.1f;
+// How fast a level that is likelier than its half or double gains on it, each hop: in a second,
+// once it is clear.
+constexpr float kLevelEvidence = 0.06f;
+// Of a level: what a network has never heard must not be impossible.
+constexpr float kLeastLevel = -6.0f;
 // A hint of weight 1 outweighs whatever the rhythm says.
 constexpr float kHintRatio = 16.0f;
 constexpr double kNearLevel_octaves = 0.12;
 constexpr int kSettled_hops = 150;
-// What a turn brings to the mean: three seconds of the music, or all there was so far. A level
-// changes rarely.
-constexpr float kFollowed = 0.03f;
 constexpr int kMostHops = 1 << 20;
 // Periods within one of so many parts are one level.
 constexpr int kSameLevel_parts = 24;
-// All periods are judged anew in so many hops.
-constexpr std::size_t kTurn_hops = 10;
 
 }  // namespace
 
-TempoEvidence::TempoEvidence(const TempoNet& net, double hop_s, int least_period_hops, int periods)
-    : net_(&net),
-      hop_s_(hop_s),
+TempoEvidence::TempoEvidence(double hop_s, int least_period_hops, int periods)
+    : hop_s_(hop_s),
       least_period_(least_period_hops),
-      judged_(static_cast<std::size_t>(periods), 0.0f),
-      hinted_(judged_),
-      of_level_(judged_),
-      evidence_(judged_) {
-  DANCE_ASSERT(periods > 0 && least_period_hops + periods - 1 <= RhythmPeriods::kMostPeriod_hops);
+      hinted_(static_cast<std::size_t>(periods), 0.0f),
+      judged_(hinted_),
+      of_level_(hinted_),
+      evidence_(hinted_) {
+  DANCE_ASSERT(periods > 0 && least_period_hops > 0);
+  for (int i = 0; i < periods; ++i)
+    place_.push_back(static_cast<float>(
+        std::clamp(RhythmNet::place_of_tempo(60.0 / ((least_period_hops + i) * hop_s)), 0.0,
+                   RhythmNet::kTempi - 1.001)));
 }
 
 void TempoEvidence::set_hint(const TempoHint& hint) {
   const bool is_one =
       hint.tempo_bpm >= kLeastTempo_bpm && hint.tempo_bpm <= kMostTempo_bpm && hint.weight > 0.0;
-  hint_ = is_one ? TempoHint{hint.tempo_bpm, std::min(hint.weight, 1.0)} : TempoHint{};
+  const TempoHint now =
+      is_one ? TempoHint{hint.tempo_bpm, std::min(hint.weight, 1.0)} : TempoHint{};
+  if (now.tempo_bpm == hint_.tempo_bpm && now.weight == hint_.weight) return;
+  hint_ = now;
+  for (std::size_t i = 0; i < hinted_.size(); ++i)
+    hinted_[i] = hinted(least_period_ + static_cast<double>(i));
 }
 
 // Speaks against half and double of the hinted tempo.
@@ -52,25 +57,16 @@ float TempoEvidence::hinted(double period_hops) const {
   return -kHintRatio * static_cast<float>(hint_.weight * std::exp(-0.5 * away * away));
 }
 
-void TempoEvidence::judge_some() {
-  const std::size_t now = (judged_.size() + kTurn_hops - 1) / kTurn_hops;
-  const auto turns = static_cast<float>(heard_hops_) / static_cast<float>(kTurn_hops);
-  const float follow = std::max(1.0f / (1.0f + turns), kFollowed);
-  for (std::size_t k = 0; k < now; ++k, next_ = (next_ + 1) % judged_.size()) {
-    const double period_hops = least_period_ + static_cast<double>(next_);
-    rhythm_.read(period_hops, values_);
-    judged_[next_] += follow * (net_->judge(values_) - judged_[next_]);
-    hinted_[next_] = hinted(period_hops);
-  }
-}
-
-void TempoEvidence::push(const OnsetStrength::Strengths& strengths, float weight) {
-  rhythm_.push(strengths);
-  judge_some();
+void TempoEvidence::push(const Eigen::VectorXf& tempi, float weight) {
   heard_hops_ = std::min(heard_hops_ + 1, kMostHops);
   const float settled =
       std::min(1.0f, static_cast<float>(heard_hops_) / static_cast<float>(kSettled_hops));
   const auto periods = static_cast<int>(judged_.size());
+  for (std::size_t i = 0; i < judged_.size(); ++i) {
+    const auto below = static_cast<Eigen::Index>(place_[i]);
+    const float share = place_[i] - static_cast<float>(below);
+    judged_[i] = std::max(kLeastLevel, (1.0f - share) * tempi[below] + share * tempi[below + 1]);
+  }
   for (int i = 0; i < periods; ++i) {
     const int reach = (least_period_ + i) / kSameLevel_parts;
     const auto first = judged_.begin() + std::max(0, i - reach);
@@ -89,7 +85,7 @@ void TempoEvidence::push(const OnsetStrength::Strengths& strengths, float weight
     const int n = least_period_ + i;
     const float own = of_level_[at];
     const float best = std::max({own, level_at((n + 1) / 2, own), level_at(2 * n, own)});
-    evidence_[at] = weight * settled * kRhythmEvidence * (own - best);
+    evidence_[at] = weight * settled * kLevelEvidence * (own - best);
   }
 }
 

@@ -1,19 +1,16 @@
-// TempoEvidence: which tempo dancers step at, by the rhythm of the last seconds and by what is
-// known from elsewhere: the dancers themselves, or a person who says it.
+// TempoEvidence: which tempo dancers step at, by what a network hears and by what is known from
+// elsewhere: the dancers themselves, or a person who says it.
 //
 // Units/frames: periods in hops of onset strengths; evidence is a logarithm of likelihood a hop.
-// Ownership:    fixed arrays of its own; never allocates after construction. Refers to the network,
-//               which must outlive it.
+// Ownership:    fixed arrays of its own; never allocates after construction.
 // Threads:      none inside; one owner.
 // Failure:      a hint that is no tempo, or has no weight, is none.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
-#include "producers/music/tracker/tempo/rhythm_periods.h"
-#include "producers/music/tracker/tempo/tempo_net.h"
+#include "producers/music/tracker/net/rhythm_net.h"
 
 namespace dance {
 
@@ -27,26 +24,23 @@ struct TempoHint {
 class TempoEvidence {
  public:
   // For beats of so many hops and each one longer.
-  TempoEvidence(const TempoNet& net, double hop_s, int least_period_hops, int periods);
+  TempoEvidence(double hop_s, int least_period_hops, int periods);
 
   void set_hint(const TempoHint& hint);
-  // The next hop. weight as BarPointer::push.
-  void push(const OnsetStrength::Strengths& strengths, float weight);
+  // The next hop. tempi: logarithms of the probability of each of RhythmNet::kTempi; weight as
+  // BarPointer::push.
+  void push(const Eigen::VectorXf& tempi, float weight);
   // Of each period.
   std::span<const float> of_periods() const { return evidence_; }
 
  private:
   float hinted(double period_hops) const;
-  void judge_some();
 
-  const TempoNet* net_;
   double hop_s_;
   int least_period_;
   TempoHint hint_;
-  RhythmPeriods rhythm_;
-  std::array<float, RhythmPeriods::kCount> values_{};
-  std::vector<float> judged_, hinted_, of_level_, evidence_;  // of each period
-  std::size_t next_ = 0;
+  std::vector<float> place_;  // of each period, among the network's tempi
+  std::vector<float> hinted_, judged_, of_level_, evidence_;  // of each period
   int heard_hops_ = 0;
 };
 

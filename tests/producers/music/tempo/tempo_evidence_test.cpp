@@ -12,44 +12,17 @@ namespace {
 constexpr double kHop_s = 0.01;
 constexpr int kLeast_hops = 28, kPeriods = 56;
 
-// All groups strike each `every_hops`, the lowest each fourth time.
-OnsetStrength::Strengths strokes_at(int hop, int every_hops) {
-  OnsetStrength::Strengths strengths{};
-  if (hop % every_hops == 0)
-    for (std::size_t g = 0; g < kOnsetGroups; ++g)
-      strengths[g] = g > 0 || hop % (4 * every_hops) == 0 ? 8.0f : 0.0f;
-  return strengths;
+// A network's tempi, of which these two are so likely and all others not.
+Eigen::VectorXf tempi_with(double one_bpm, double of_one, double other_bpm, double of_other) {
+  Eigen::VectorXf tempi = Eigen::VectorXf::Constant(RhythmNet::kTempi, std::log(1e-4f));
+  const auto set = [&](double bpm, double p) {
+    tempi[std::lround(RhythmNet::place_of_tempo(bpm))] = static_cast<float>(std::log(p));
+  };
+  set(one_bpm, of_one);
+  set(other_bpm, of_other);
+  return tempi;
 }
 
-std::size_t at_lag(std::size_t group, double beats) {
-  const auto& lags = RhythmPeriods::kLags_beats;
-  const auto found = std::find(lags.begin(), lags.end(), beats);
-  return group * lags.size() + static_cast<std::size_t>(found - lags.begin());
-}
-
-TEST(RhythmPeriods, AreAlikeAfterABeatAndNotAfterAPart) {
-  RhythmPeriods rhythm;
-  for (int hop = 0; hop < 800; ++hop) rhythm.push(strokes_at(hop, 48));
-  std::array<float, RhythmPeriods::kCount> values;
-  rhythm.read(48.0, values);
-  EXPECT_GT(values[at_lag(1, 1.0)], 0.8f);
-  EXPECT_LT(values[at_lag(1, 0.5)], 0.1f);
-  EXPECT_LT(values[at_lag(0, 1.0)], 0.1f) << "the lowest group strikes each fourth time only";
-  EXPECT_GT(values[at_lag(0, 4.0)], 0.5f);
-  rhythm.read(24.0, values);
-  EXPECT_LT(values[at_lag(1, 1.0)], 0.1f);
-  EXPECT_GT(values[at_lag(1, 2.0)], 0.8f);
-}
-
-TEST(RhythmPeriods, AreNothingBeforeAnythingIsHeard) {
-  RhythmPeriods rhythm;
-  std::array<float, RhythmPeriods::kCount> values;
-  rhythm.push({});
-  rhythm.read(40.0, values);
-  for (std::size_t i = 0; i + 2 < values.size(); ++i) EXPECT_EQ(values[i], 0.0f);
-}
-
-// A network that finds nothing.
 class HintedTempo : public testing::Test {
  protected:
   float of_tempo(const TempoEvidence& evidence, double bpm) const {
@@ -57,12 +30,14 @@ class HintedTempo : public testing::Test {
     return evidence.of_periods()[period];
   }
   TempoEvidence hinted(const TempoHint& hint) const {
-    TempoEvidence evidence(net_, kHop_s, kLeast_hops, kPeriods);
+    TempoEvidence evidence(kHop_s, kLeast_hops, kPeriods);
     evidence.set_hint(hint);
-    for (int hop = 0; hop < 20; ++hop) evidence.push({}, 1.0f);
+    for (int hop = 0; hop < 20; ++hop) evidence.push(unknown(), 1.0f);
     return evidence;
   }
-  TempoNet net_;
+  static Eigen::VectorXf unknown() {
+    return Eigen::VectorXf::Constant(RhythmNet::kTempi, -std::log(float{RhythmNet::kTempi}));
+  }
 };
 
 TEST_F(HintedTempo, SpeaksAgainstTheOtherLevelOnly) {
@@ -88,10 +63,28 @@ TEST_F(HintedTempo, WhatIsNoTempoIsNoHint) {
     EXPECT_EQ(of_tempo(hinted({96.0, weight}), 192.0), 0.0f) << weight;
 }
 
+TEST_F(HintedTempo, AHintDecidesBetweenLevelsThatAreHeardOtherwise) {
+  TempoEvidence evidence(kHop_s, kLeast_hops, kPeriods);
+  for (int hop = 0; hop < 400; ++hop) evidence.push(tempi_with(96.0, 0.1, 192.0, 0.85), 1.0f);
+  EXPECT_LT(of_tempo(evidence, 96.0), of_tempo(evidence, 192.0));
+  evidence.set_hint({96.0, 0.75});
+  for (int hop = 0; hop < 10; ++hop) evidence.push(tempi_with(96.0, 0.1, 192.0, 0.85), 1.0f);
+  EXPECT_GT(of_tempo(evidence, 96.0), of_tempo(evidence, 192.0));
+}
+
+TEST_F(HintedTempo, TheLikelierLevelGains) {
+  TempoEvidence evidence(kHop_s, kLeast_hops, kPeriods);
+  for (int hop = 0; hop < 400; ++hop) evidence.push(tempi_with(96.0, 0.9, 192.0, 0.05), 1.0f);
+  EXPECT_GT(of_tempo(evidence, 96.0), of_tempo(evidence, 192.0) + 0.05f);
+  EXPECT_EQ(of_tempo(evidence, 130.0), 0.0f) << "a tempo beside both levels is left alone";
+  EXPECT_EQ(of_tempo(evidence, 96.0), 0.0f);
+}
+
 TEST_F(HintedTempo, AllocatesNothing) {
-  TempoEvidence evidence(net_, kHop_s, kLeast_hops, kPeriods);
+  TempoEvidence evidence(kHop_s, kLeast_hops, kPeriods);
+  const Eigen::VectorXf tempi = tempi_with(96.0, 0.7, 192.0, 0.2);
   const AllocationGuard guard;
-  for (int hop = 0; hop < 2000; ++hop) evidence.push(strokes_at(hop, 40), 1.0f);
+  for (int hop = 0; hop < 2000; ++hop) evidence.push(tempi, 1.0f);
   EXPECT_EQ(guard.allocations(), 0u);
 }
 

@@ -1,4 +1,4 @@
-#include "research/predict/matrix_product.h"
+#include "research/matrix_product.h"
 
 #include <cstring>
 
