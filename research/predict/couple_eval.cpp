@@ -105,10 +105,9 @@ void judge_dancer(const PredictTake& take, const std::vector<Pose>& heard,
         const auto& other = b == 1 ? partner_heard : stranger_heard;
         const MonoTime begin = mono_now();
         if (b > 0) {
-          if (course.fed == 0)
-            course.dancers.set_body(kHere, (b == 1 ? partner : stranger).skeleton);
+          const Skeleton& body = (b == 1 ? partner : stranger).skeleton;
           for (; course.fed <= i + ahead && course.fed < other.size(); ++course.fed)
-            course.dancers.take(kHere, other[course.fed]);
+            course.dancers.take(kHere, other[course.fed], &body);
         }
         Pose pose = alone;
         course.guide.observe(heard[i], moment, extrapolator);
