@@ -45,14 +45,13 @@ class PartnerGuide {
   struct Probe {
     MonoTime moment;
     Meeting met;
-    Palms predicted;
-    Eigen::Vector3f predicted_hips;
+    Figure predicted;
+    float ahead_s;
   };
   static constexpr std::size_t kProbes = 64;
   struct Shape {
     MonoTime time;
-    Palms palms;
-    Eigen::Vector3f hips;
+    Figure figure;
   };
 
   Shape shape_of(const Pose& pose) const;
