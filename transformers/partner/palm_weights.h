@@ -1,5 +1,5 @@
-// What a partner's hands tell of a dancer's palm: eight guesses of where the palm will be, each with a
-// weight that depends on how the two palms have been to each other.
+// What a partner's hands tell of a dancer's palm: eight guesses of where the palm will be, each
+// with a weight that depends on how the two palms have been to each other.
 //
 // Units/frames: a guess is its difference to the plain prediction, metres in W; signs are numbers
 //               around 0.

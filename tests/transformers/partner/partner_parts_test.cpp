@@ -130,8 +130,8 @@ TEST(Meeting, OffsetsTurnWithTheLineBetweenTheTwo) {
     EXPECT_LT((met.palm_at(pair, turned(hips), later) - turned(own.palms[pair / 2])).norm(), 1e-5f);
 }
 
-// Two palms that dance, of which the dancer's follows the partner's so far; predictions know nothing
-// of it.
+// Two palms that dance, of which the dancer's follows the partner's so far; predictions know
+// nothing of it.
 class TwoPalms {
  public:
   explicit TwoPalms(float follows, float apart_m = 0.1f) : follows_(follows), apart_m_(apart_m) {}
