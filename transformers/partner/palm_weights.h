@@ -38,7 +38,9 @@ enum class PalmSign : std::size_t {
 constexpr auto kPalmGuesses = static_cast<std::size_t>(PalmGuess::kCount);
 constexpr auto kPalmSigns = static_cast<std::size_t>(PalmSign::kCount);
 
-constexpr std::array<std::array<float, kPalmSigns>, kPalmGuesses> kPalmWeights{{
+using PalmWeights = std::array<std::array<float, kPalmSigns>, kPalmGuesses>;
+
+constexpr PalmWeights kPalmWeights{{
     {{0.299f, 0.001f, -0.067f, -0.243f, 0.121f, 0.105f, 0.193f}},
     {{0.139f, -0.094f, -0.016f, -0.160f, -0.016f, 0.054f, 0.045f}},
     {{0.084f, -0.074f, 0.000f, 0.000f, 0.031f, 0.034f, -0.004f}},
