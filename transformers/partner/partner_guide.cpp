@@ -183,4 +183,16 @@ void PartnerGuide::guide(MonoTime moment, Pose& pose) const {
   pull_palms(skeleton_, pulls, pose);
 }
 
+std::optional<std::array<PalmGuesses, 2>> PartnerGuide::guesses(MonoTime moment,
+                                                                const Pose& pose) const {
+  const auto met = meeting();
+  if (!met) return std::nullopt;
+  const auto partner = track()->at_latest(moment + lag_);
+  if (!partner) return std::nullopt;
+  const Figure predicted = shape_of(pose).figure;
+  const auto ahead_s = static_cast<float>((moment - newest_.time).as_seconds());
+  return std::array{PalmGuesses::of(*met, predicted, ahead_s, *partner, 0),
+                    PalmGuesses::of(*met, predicted, ahead_s, *partner, 1)};
+}
+
 }  // namespace dance

@@ -35,6 +35,8 @@ class PartnerGuide {
   bool has_news() const { return has_news_; }
   // Corrects the prediction of a moment behind the newest pose.
   void guide(MonoTime moment, Pose& pose) const;
+  // What the partner says of the palms of that prediction; nothing while that is not known.
+  std::optional<std::array<PalmGuesses, 2>> guesses(MonoTime moment, const Pose& pose) const;
 
   // Nobody while there is no couple.
   std::optional<GuestId> partner() const;
