@@ -1,5 +1,5 @@
-// RhythmPasses: part of a batch of sequences through a recurrent network and back: its loss, and the
-// gradient of that for each parameter.
+// RhythmPasses: part of a batch of sequences through a recurrent network and back: its loss, and
+// the gradient of that for each parameter.
 //
 // Units/frames: rows of features by step and sequence; parameters in one row (RhythmPlaces).
 // Ownership:    owns what a pass keeps of each step; refers to the songs of its sequences.

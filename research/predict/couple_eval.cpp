@@ -60,6 +60,15 @@ struct Course {
   bool has_before = false;
 };
 
+void keep_palms(const std::optional<std::array<PalmGuesses, 2>>& said, const Palms& alone,
+                const Palms& truth, const std::array<bool, 2>& is_held, std::size_t horizon,
+                std::vector<PalmMoment>& kept) {
+  if (!said) return;
+  for (std::size_t side = 0; side < 2; ++side)
+    if ((*said)[side].near > 0.0f)
+      kept.push_back({(*said)[side], truth[side] - alone[side], horizon, is_held[side]});
+}
+
 void judge_dancer(const PredictTake& take, const std::vector<Pose>& heard,
                   const PredictTake& partner, const std::vector<Pose>& partner_heard,
                   const PredictTake& stranger, const std::vector<Pose>& stranger_heard,
@@ -98,6 +107,10 @@ void judge_dancer(const PredictTake& take, const std::vector<Pose>& heard,
       const Palms now = palms_of(take.skeleton, take.poses[i]);
       const Palms partner_now = palms_of(partner.skeleton, partner.poses[i]);
       const Palms partner_then = palms_of(partner.skeleton, partner.poses[i + ahead]);
+      std::array<bool, 2> is_held;
+      for (std::size_t side = 0; side < 2; ++side)
+        is_held[side] = nearest_m(now, partner_now, side) < kHold_m &&
+                        nearest_m(palms, partner_then, side) < kHold_m;
       Pose alone;
       extrapolator.predict(moment, alone);
       for (std::size_t b = 0; b < kBesides; ++b) {
@@ -105,10 +118,9 @@ void judge_dancer(const PredictTake& take, const std::vector<Pose>& heard,
         const auto& other = b == 1 ? partner_heard : stranger_heard;
         const MonoTime begin = mono_now();
         if (b > 0) {
-          if (course.fed == 0)
-            course.dancers.set_body(kHere, (b == 1 ? partner : stranger).skeleton);
+          const Skeleton& body = (b == 1 ? partner : stranger).skeleton;
           for (; course.fed <= i + ahead && course.fed < other.size(); ++course.fed)
-            course.dancers.take(kHere, other[course.fed]);
+            course.dancers.take(kHere, other[course.fed], &body);
         }
         Pose pose = alone;
         course.guide.observe(heard[i], moment, extrapolator);
@@ -126,6 +138,9 @@ void judge_dancer(const PredictTake& take, const std::vector<Pose>& heard,
         course.before = shown;
         course.has_before = true;
         if (!is_judged) continue;
+        if (b == 1 && options.keeps_palms)
+          keep_palms(course.guide.guesses(moment, alone), palms_of(take.skeleton, alone), palms,
+                     is_held, h, eval.palms);
         if (b > 0 && h == 0 && course.guide.partner()) eval.coupled[b] += 1.0;
         s.sum.body_m += body_error_m(take.skeleton, pose, truth);
         s.sum.arms_m += arms_error_m(take.skeleton, pose, truth);
@@ -134,9 +149,7 @@ void judge_dancer(const PredictTake& take, const std::vector<Pose>& heard,
           const float error = (shown[side] - palms[side]).norm();
           s.sum.world_m += static_cast<double>(error);
           ++s.palms;
-          const bool is_held = nearest_m(now, partner_now, side) < kHold_m &&
-                               nearest_m(palms, partner_then, side) < kHold_m;
-          if (!is_held) continue;
+          if (!is_held[side]) continue;
           s.held_m.push_back(error);
           held[h] += b == 0;
         }

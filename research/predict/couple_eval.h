@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "research/predict/couple_takes.h"
+#include "research/predict/palm_fit.h"
 #include "transformers/predict/model/predict_model.h"
 
 namespace dance {
@@ -27,6 +28,7 @@ struct CoupleEvalOptions {
   double noise_deg = 0.0;
   double join_m = 0.0;
   std::shared_ptr<const PredictModel> model;
+  bool keeps_palms = false;  // what the partner's palms said at each judged moment
 };
 
 struct CoupleErrors {
@@ -46,6 +48,7 @@ struct CoupleEval {
   std::vector<double> held;                   // of the palms, the part that is in a hold
   std::array<double, kBesides> coupled{};     // of the time a partner was found
   double ns_per_frame = 0.0;                  // that the partner costs beside the prediction
+  std::vector<PalmMoment> palms;
 };
 
 CoupleEval evaluate_couples(const std::vector<CoupleTake>& couples,

@@ -30,12 +30,14 @@ struct PredictEvalWishes {
   std::vector<double> horizons_ms{50, 100, 150, 200, 300, 400, 600, 1000};
   double noise_deg = 0.0;
   bool fresh = false;
-  bool json = false, partner = false;
+  bool json = false, partner = false, fit_palms = false;
   double join_m = 0.0;
   std::string model;
 };
 
 Result<void> run_predict_eval(const PredictEvalWishes& wishes) {
+  if (wishes.fit_palms && !wishes.partner)
+    return fail("--fit-palms fits what partners' palms say of each other: give --partner, too");
   PredictEvalOptions options;
   options.model = built_in_predict_model();
   if (!wishes.model.empty()) {
@@ -56,8 +58,13 @@ Result<void> run_predict_eval(const PredictEvalWishes& wishes) {
   if (wishes.partner) {
     DANCE_TRY(const auto couples, couples_of(std::move(takes)));
     const CoupleEvalOptions couple{options.horizons, options.noise_deg, wishes.join_m,
-                                   options.model};
+                                   options.model, wishes.fit_palms};
     const CoupleEval eval = evaluate_couples(couples, couple);
+    if (wishes.fit_palms) {
+      DANCE_TRY(const PalmWeights weights, fit_palms(eval.palms));
+      std::fputs(palm_weights_text(weights).c_str(), stdout);
+      return {};
+    }
     const std::string text =
         wishes.json ? couple_eval_json(eval, couple) : couple_eval_table(eval, couple);
     std::fwrite(text.data(), 1, text.size(), stdout);
@@ -90,6 +97,9 @@ int main(int argc, char** argv) {
            "with --partner: metres within which palms are brought together, as captures that were "
            "put onto other bodies hold hands at 20 cm")
       .range(0.0, 1.0);
+  line.add_flag("--fit-palms", wishes.fit_palms,
+                "with --partner: print the weights of what the partner's palms say, fitted to "
+                "these couples, as they are built in");
   line.add("--model", wishes.model, "a model of dance predict train instead of the built-in one");
   line.add_flag("--json", wishes.json, "one JSON object on stdout");
   line.footer(dance::kPredictEvalExamples);

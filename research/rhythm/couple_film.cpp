@@ -90,7 +90,6 @@ Result<void> film_couple(const BeatDance& here, const BeatDance& remote, const B
 
   PartnerTracks dancers;
   const GuestId partner = *GuestId::parse("here");
-  dancers.set_body(partner, here.skeleton);
   std::vector<FilmedFlow> shown;
   for (const FilmedWay& way : ways) {
     DANCE_TRY(Flow flow, Flow::make(way.through, parts));
@@ -114,7 +113,7 @@ Result<void> film_couple(const BeatDance& here, const BeatDance& remote, const B
       for (FilmedFlow& s : shown) s.flow.hear(beat);
       sink.on_beat(beat, now_us);
     }
-    dancers.take(partner, seen_here[i]);
+    dancers.take(partner, seen_here[i], &here.skeleton);
     for (; arrived < arrivals.size() && arrivals[arrived].at <= now; ++arrived) {
       const Pose& pose = sent[arrivals[arrived].index];
       if (!newest || pose.capture_time > newest->capture_time) newest = &pose;

@@ -64,7 +64,6 @@ Shown play(const BeatDance& dance, const std::vector<LineArrival>& arrivals, Flo
   PartnerTracks dancers;
   const GuestId here = *GuestId::parse("here");
   if (dance.partner) {
-    dancers.set_body(here, dance.partner->skeleton);
     flow.set_dancers(&dancers);
   }
   MonoTime next_beat = kRhythmEvalBegin, next_learn = kRhythmEvalBegin + kLearnEvery;
@@ -73,7 +72,9 @@ Shown play(const BeatDance& dance, const std::vector<LineArrival>& arrivals, Flo
   for (std::size_t i = 0; i < dance.poses.size(); ++i) {
     const MonoTime now = dance.poses[i].capture_time;
     for (; next_beat <= now; next_beat += kBeatEvery) flow.hear(music.beat_at(next_beat));
-    if (dance.partner) dancers.take(here, partner_at(*dance.partner, now, music.speed, hz));
+    if (dance.partner)
+      dancers.take(here, partner_at(*dance.partner, now, music.speed, hz),
+                   &dance.partner->skeleton);
     for (; arrived < arrivals.size() && arrivals[arrived].at <= now; ++arrived) {
       const Pose& pose = dance.poses[arrivals[arrived].index];
       if (!newest || pose.capture_time > newest->capture_time) newest = &pose;

@@ -9,114 +9,93 @@ using Eigen::Vector3f;
 
 namespace {
 
-// What the palms of couples in salsa were worth 200 ms ahead, by how far apart they were: 0.55 side
-// by side, 0.3 at 25 cm.
-constexpr float kUsualShare = 0.56f, kUsualApart_m = 0.3f;
-// Evidence is square metres of difference, a moment each; halved in this time. Holds last for a
-// beat or two: longer memories of a pair of palms left more errors, shorter ones followed noise.
-constexpr double kPairHalfLife_s = 0.5, kTrustHalfLife_s = 20.0;
-// As much as half a second of prediction errors of 8 cm: before that the usual share counts.
-constexpr double kPairPrior_m2 = 15.0 * 0.08 * 0.08;
-constexpr double kTrustPrior_m2 = 30.0 * 0.04 * 0.04;
-// Hips that stand closer have no line between them.
-constexpr float kLeastLine_m = 0.2f;
+// Offsets drift beside their mean over so long.
+constexpr double kUsualOffset_s = 0.15;
+// Holds last for a beat or two: longer memories of a pair of palms left more errors.
+constexpr double kProvedHalfLife_s = 0.35, kNowHalfLife_s = 0.12, kTrustHalfLife_s = 20.0;
+constexpr double kProvedPrior_m2s = 1e-3, kNowPrior_m2s = 3.3e-4;
+constexpr double kMissedOver_s = 0.05;
+// As much as a third of a second of hands that are drawn by 4 cm.
+constexpr double kTrustPrior_m2 = 10.0 * 0.04 * 0.04;
+// What a dancer of another dance comes to by chance, and what is as right as of a true partner.
+constexpr double kTrustBegins = 0.15, kTrustFull = 0.4;
+// Of what is known of a palm, so much draws it; the arm's usual errors tell the rest.
+constexpr float kPullShare = 0.9f;
 
-float usual_share(float apart_m) {
-  const float x = apart_m / kUsualApart_m;
-  // To 0 at kReach_m, without a corner.
-  const float near = std::max(0.0f, 1.0f - apart_m / HandHolds::kReach_m);
-  return kUsualShare * std::exp(-x * x) * std::min(1.0f, 2.0f * near);
-}
-
-// The turn about the vertical from one line to another, as cosine and sine.
-struct Turn {
-  float cosine = 1.0f, sine = 0.0f;
-  Vector3f of(const Vector3f& v) const {
-    return {cosine * v.x() + sine * v.z(), v.y(), cosine * v.z() - sine * v.x()};
-  }
-};
-
-Turn turn_between(const Vector3f& from, const Vector3f& to) {
-  const float size = std::hypot(from.x(), from.z()) * std::hypot(to.x(), to.z());
-  if (size < kLeastLine_m * kLeastLine_m) return {};
-  // from x to about +Y.
-  return {(from.x() * to.x() + from.z() * to.z()) / size,
-          (from.z() * to.x() - from.x() * to.z()) / size};
-}
+double kept(double step_s, double half_life_s) { return std::exp2(-step_s / half_life_s); }
 
 }  // namespace
 
-Meeting Meeting::of(const Palms& own, const Vector3f& hips, const PartnerMoment& partner) {
-  Meeting met;
-  for (std::size_t pair = 0; pair < kPalmPairs; ++pair)
-    met.offset_m[pair] = own[pair / 2] - partner.p_WPalm_m[pair % 2];
-  met.p_WHips_m = hips;
-  met.p_WPartnerHips_m = partner.p_WHips_m;
-  return met;
+void HandHolds::follow(const Meeting& met, double step_s) {
+  const auto share = static_cast<float>(1.0 - std::exp(-step_s / kUsualOffset_s));
+  for (std::size_t pair = 0; pair < kPalmPairs; ++pair) {
+    const Vector3f offset = met.offset_in_line_m(pair);
+    if (!is_followed_) usual_offset_m_[pair] = offset;
+    usual_offset_m_[pair] += share * (offset - usual_offset_m_[pair]);
+  }
+  is_followed_ = true;
 }
 
-Vector3f Meeting::palm_at(std::size_t pair, const Vector3f& hips,
-                          const PartnerMoment& partner) const {
-  const Turn turn = turn_between(p_WHips_m - p_WPartnerHips_m, hips - partner.p_WHips_m);
-  return partner.p_WPalm_m[pair % 2] + turn.of(offset_m[pair]);
+void HandHolds::describe(Meeting& met) const {
+  for (std::size_t pair = 0; pair < kPalmPairs; ++pair) {
+    if (is_followed_)
+      met.drift_m[pair] = (met.offset_in_line_m(pair) - usual_offset_m_[pair]).norm();
+    met.proved[pair] = errors_[pair].proved(kProvedPrior_m2s);
+    met.proved_now[pair] = errors_now_[pair].proved(kNowPrior_m2s);
+  }
+  met.missed_m = missed_m_;
+  met.missed_ahead_s = static_cast<float>(missed_ahead_s_);
 }
 
 float HandHolds::trust() const {
-  return static_cast<float>(std::clamp(trust_.ratio(0.0, kTrustPrior_m2), 0.0, 1.0));
+  const double ratio = right_ / (all_ + kTrustPrior_m2);
+  return static_cast<float>(
+      std::clamp((ratio - kTrustBegins) / (kTrustFull - kTrustBegins), 0.0, 1.0));
 }
 
-float HandHolds::share(std::size_t pair, float apart_m) const {
-  const double prior = static_cast<double>(trust() * usual_share(apart_m));
-  const double ratio = std::clamp(pairs_[pair].ratio(prior, kPairPrior_m2), 0.0, 1.0);
-  // Learnt of palms in reach, and gone with it.
-  const float near = std::clamp(4.0f * (1.0f - apart_m / kReach_m), 0.0f, 1.0f);
-  return near * static_cast<float>(ratio);
-}
-
-void HandHolds::learn(const Meeting& met, const Palms& predicted, const Vector3f& predicted_hips,
-                      const Palms& came, const PartnerMoment& partner, double step_s) {
-  const double pair_keep = std::exp2(-step_s / kPairHalfLife_s);
-  const double trust_keep = std::exp2(-step_s / kTrustHalfLife_s);
-  trust_.right *= trust_keep;
-  trust_.all *= trust_keep;
-  for (std::size_t pair = 0; pair < kPalmPairs; ++pair) {
-    Evidence& evidence = pairs_[pair];
-    evidence.right *= pair_keep;
-    evidence.all *= pair_keep;
-    const float apart = met.offset_m[pair].norm();
-    if (!(apart < kReach_m)) continue;
-    const Vector3f said = met.palm_at(pair, predicted_hips, partner) - predicted[pair / 2];
-    const Vector3f missing = came[pair / 2] - predicted[pair / 2];
-    const double right = static_cast<double>(said.dot(missing));
-    const double all = static_cast<double>(said.squaredNorm());
-    if (!std::isfinite(right) || !std::isfinite(all)) continue;
-    const auto usual = static_cast<double>(usual_share(apart));
-    evidence.right += right;
-    evidence.all += all;
-    trust_.right += usual * right;
-    trust_.all += usual * usual * all;
+void HandHolds::learn(const Meeting& met, const Figure& predicted, float ahead_s, const Palms& came,
+                      const PartnerMoment& partner, double step_s) {
+  const double proved_keep = kept(step_s, kProvedHalfLife_s);
+  const double now_keep = kept(step_s, kNowHalfLife_s);
+  const double trust_keep = kept(step_s, kTrustHalfLife_s);
+  right_ *= trust_keep;
+  all_ *= trust_keep;
+  const double newer = 1.0 - std::exp(-step_s / kMissedOver_s);
+  missed_ahead_s_ += newer * (static_cast<double>(ahead_s) - missed_ahead_s_);
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Vector3f missing = came[side] - predicted.palms[side];
+    if (!missing.allFinite()) continue;
+    missed_m_[side] += static_cast<float>(newer) * (missing - missed_m_[side]);
+    for (std::size_t pair = 2 * side; pair < 2 * side + 2; ++pair) {
+      errors_[pair].forget(proved_keep);
+      errors_now_[pair].forget(now_keep);
+      if (!(met.offset_m[pair].norm() < Meeting::kReach_m)) continue;
+      const Vector3f wrong = met.palm_at(pair, predicted.p_WHips_m, partner) - came[side];
+      if (!wrong.allFinite()) continue;
+      const auto offset_m2 = static_cast<double>(wrong.squaredNorm());
+      const auto plain_m2 = static_cast<double>(missing.squaredNorm());
+      errors_[pair].add(offset_m2, plain_m2, step_s);
+      errors_now_[pair].add(offset_m2, plain_m2, step_s);
+    }
+    const Vector3f said =
+        PalmGuesses::of(met, predicted, ahead_s, partner, side).weighed().by_partner;
+    if (!said.allFinite()) continue;
+    right_ += static_cast<double>(said.dot(missing));
+    all_ += static_cast<double>(said.squaredNorm());
   }
 }
 
-std::array<PalmPull, 2> HandHolds::pulls(const Meeting& met, const Palms& predicted,
-                                         const Vector3f& predicted_hips,
+std::array<PalmPull, 2> HandHolds::pulls(const Meeting& met, const Figure& predicted, float ahead_s,
                                          const PartnerMoment& partner) const {
   std::array<PalmPull, 2> pulls;
+  const float trusted = trust();
+  if (trusted <= 0.0f) return pulls;
   for (std::size_t side = 0; side < 2; ++side) {
-    float sum = 0.0f, free = 1.0f;
-    Vector3f shift = Vector3f::Zero();
-    for (std::size_t pair = 2 * side; pair < 2 * side + 2; ++pair) {
-      const float part = share(pair, met.offset_m[pair].norm());
-      if (part <= 0.0f) continue;
-      // A pair that is surer counts more than its share.
-      const float weight = part / (1.02f - part);
-      shift += weight * (met.palm_at(pair, predicted_hips, partner) - predicted[side]);
-      sum += weight;
-      free *= 1.0f - part;
-    }
-    if (sum <= 0.0f) continue;
-    pulls[side].shift_W_m = shift / sum;
-    pulls[side].share = 1.0f - free;
+    const PalmGuesses said = PalmGuesses::of(met, predicted, ahead_s, partner, side);
+    pulls[side].share = kPullShare * said.near * trusted;
+    if (pulls[side].share <= 0.0f) continue;
+    const PalmGuesses::Sum sum = said.weighed();
+    pulls[side].shift_W_m = (sum.by_partner + sum.by_misses) / (kPullShare * said.near);
   }
   return pulls;
 }

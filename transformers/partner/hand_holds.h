@@ -1,65 +1,59 @@
 // HandHolds: what is known of a dancer's palms by those of the partner, who dances here and now:
-// palms that were together stay as they were to each other. How far that holds is measured, pair by
-// pair, against what the prediction alone said and what then came.
+// palms that were together stay as they were to each other. How far that holds is told by how they
+// have been to each other lately (transformers/partner/palm_weights.h), and whether it holds for
+// these two at all by what then came.
 //
-// Units/frames: metres in W; offsets of palms in a frame that turns with the line from one dancer's
-//               hips to the other's.
+// Units/frames: as transformers/partner/palm_guesses.h.
 // Ownership:    plain value; never allocates.
 // Threads:      none inside; one owner.
 // Failure:      without evidence nothing is pulled.
-// Source:       the share of the difference that turned out right is its regression on what was
-//               missing, with a forgetting of seconds.
 #pragma once
 
 #include <array>
 
 #include "core/motion/palm_pull.h"
-#include "transformers/partner/partner_track.h"
+#include "transformers/partner/palm_guesses.h"
 
 namespace dance {
 
-using Palms = std::array<Eigen::Vector3f, 2>;
-constexpr std::size_t kPalmPairs = 4;  // own palm k / 2, the partner's k % 2
-
-// How two dancers stood to each other at a moment that is known of both.
-struct Meeting {
-  std::array<Eigen::Vector3f, kPalmPairs> offset_m;  // of the own palm from the partner's
-  Eigen::Vector3f p_WHips_m, p_WPartnerHips_m;
-
-  static Meeting of(const Palms& own, const Eigen::Vector3f& hips, const PartnerMoment& partner);
-  // Where the own palm of a pair is, once the partner and the own hips are elsewhere.
-  Eigen::Vector3f palm_at(std::size_t pair, const Eigen::Vector3f& hips,
-                          const PartnerMoment& partner) const;
-};
-
 class HandHolds {
  public:
-  // Beyond, palms have nothing to do with each other.
-  static constexpr float kReach_m = 0.5f;
-
   void clear() { *this = HandHolds(); }
-  // A prediction whose moment has come: what it said alone of the palms and hips, where palms are,
-  // and where the partner is. `step_s`: since the last one.
-  void learn(const Meeting& met, const Palms& predicted, const Eigen::Vector3f& predicted_hips,
-             const Palms& came, const PartnerMoment& partner, double step_s);
+  // A pose has come: how the two stand to each other now, `step_s` after the last one.
+  void follow(const Meeting& met, double step_s);
+  // Tells a meeting what was learnt so far.
+  void describe(Meeting& met) const;
+  // A prediction whose moment has come: what it said alone `ahead_s` before, where palms are, and
+  // where the partner is. `step_s`: since the last one.
+  void learn(const Meeting& met, const Figure& predicted, float ahead_s, const Palms& came,
+             const PartnerMoment& partner, double step_s);
   // What to do to a prediction.
-  std::array<PalmPull, 2> pulls(const Meeting& met, const Palms& predicted,
-                                const Eigen::Vector3f& predicted_hips,
+  std::array<PalmPull, 2> pulls(const Meeting& met, const Figure& predicted, float ahead_s,
                                 const PartnerMoment& partner) const;
   // How far the partner's hands say anything of this dancer's at all, 0 to 1.
   float trust() const;
-  // The share of the difference that is right for a pair, which were so far apart.
-  float share(std::size_t pair, float apart_m) const;
 
  private:
-  struct Evidence {
-    double right = 0.0, all = 0.0;
-    double ratio(double prior, double prior_weight) const {
-      return (right + prior * prior_weight) / (all + prior_weight);
+  struct Errors {
+    double offset = 0.0, plain = 0.0;  // square metres, seconds
+    void add(double offset_m2, double plain_m2, double step_s) {
+      offset += step_s * offset_m2;
+      plain += step_s * plain_m2;
+    }
+    void forget(double keep) {
+      offset *= keep;
+      plain *= keep;
+    }
+    float proved(double prior_m2s) const {
+      return static_cast<float>((plain - offset) / (plain + offset + prior_m2s));
     }
   };
-  std::array<Evidence, kPalmPairs> pairs_;
-  Evidence trust_;
+  std::array<Errors, kPalmPairs> errors_, errors_now_;
+  std::array<Eigen::Vector3f, kPalmPairs> usual_offset_m_;
+  bool is_followed_ = false;
+  Palms missed_m_{Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
+  double missed_ahead_s_ = 0.0;
+  double right_ = 0.0, all_ = 0.0;  // of what the partner's hands said
 };
 
 }  // namespace dance

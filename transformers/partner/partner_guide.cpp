@@ -43,8 +43,10 @@ PartnerGuide::Shape PartnerGuide::shape_of(const Pose& pose) const {
   BodyFrames frames;
   forward_kinematics(skeleton_, pose, frames);
   return {pose.capture_time,
-          {palm_of(skeleton_, frames, 0), palm_of(skeleton_, frames, 1)},
-          frames.p_WB_m[0]};
+          {{palm_of(skeleton_, frames, 0), palm_of(skeleton_, frames, 1)},
+           frames.p_WB_m[0],
+           facing_along(frames.R_WB[0] * Eigen::Vector3f::UnitZ()),
+           {frames.R_WB[index_of(kLeftArm.lower)], frames.R_WB[index_of(kRightArm.lower)]}}};
 }
 
 const PartnerTrack* PartnerGuide::track() const {
@@ -83,7 +85,9 @@ std::optional<Meeting> PartnerGuide::meeting() const {
   const PartnerTrack* beside = track();
   const auto partner = beside && has_newest_ ? beside->at(newest_.time + lag_) : std::nullopt;
   if (!partner) return std::nullopt;
-  return Meeting::of(newest_.palms, newest_.hips, *partner);
+  Meeting met = Meeting::of(newest_.figure, *partner);
+  holds_.describe(met);
+  return met;
 }
 
 void PartnerGuide::observe(const Pose& pose, MonoTime now, const Extrapolator& extrapolator) {
@@ -96,11 +100,9 @@ void PartnerGuide::observe(const Pose& pose, MonoTime now, const Extrapolator& e
     has_newest_ = false;
   }
   const double step_s = std::min(step, kLongestPartnerStep).as_seconds();
-  CoupleFinder::Stance stance{
-      shape.palms, shape.hips,        pose.R_PB[0] * Eigen::Vector3f::UnitZ(),
-      clock_id_,   shape.time + lag_, now};
-  stance.facing.y() = 0.0f;
-  stance.facing.normalize();
+  const CoupleFinder::Stance stance{shape.figure.palms,    shape.figure.p_WHips_m,
+                                    shape.figure.facing_W, clock_id_,
+                                    shape.time + lag_,     now};
   const auto found = finder_.update(*dancers_, stance, step_s);
   const bool is_same =
       found && found == partner_ && partner_generation_ == dancers_->generation(*partner_);
@@ -108,7 +110,9 @@ void PartnerGuide::observe(const Pose& pose, MonoTime now, const Extrapolator& e
   newest_ = shape;
   has_newest_ = true;
   // Where hands have nothing to say, what they say next is come to gradually.
-  const bool is_met = is_same && meeting().has_value();
+  const auto met = is_same ? meeting() : std::nullopt;
+  const bool is_met = met.has_value();
+  if (is_met) holds_.follow(*met, step_s);
   if (is_met && !was_met_) strength_ = 0.0f;
   was_met_ = is_met;
   follow_strength(is_met, step_s);
@@ -138,11 +142,12 @@ void PartnerGuide::learn(const Shape& now) {
                                       std::max(span.as_seconds(), 1e-6));
     Palms came;
     for (std::size_t side = 0; side < 2; ++side)
-      came[side] = newest_.palms[side] + t * (now.palms[side] - newest_.palms[side]);
+      came[side] =
+          newest_.figure.palms[side] + t * (now.figure.palms[side] - newest_.figure.palms[side]);
     const double step_s =
         learnt_at_.is_set() ? std::clamp((probe.moment - learnt_at_).as_seconds(), 0.0, 1.0) : 0.0;
     learnt_at_ = probe.moment;
-    holds_.learn(probe.met, probe.predicted, probe.predicted_hips, came, *partner, step_s);
+    holds_.learn(probe.met, probe.predicted, probe.ahead_s, came, *partner, step_s);
   }
 }
 
@@ -155,9 +160,8 @@ void PartnerGuide::probe(const Extrapolator& extrapolator) {
     return;
   Pose pose;
   extrapolator.predict(moment, pose);
-  const Shape predicted = shape_of(pose);
-  probes_[(first_probe_ + probe_count_) % kProbes] = {moment, *met, predicted.palms,
-                                                      predicted.hips};
+  probes_[(first_probe_ + probe_count_) % kProbes] = {moment, *met, shape_of(pose).figure,
+                                                      static_cast<float>(ahead_.as_seconds())};
   ++probe_count_;
 }
 
@@ -173,10 +177,22 @@ void PartnerGuide::guide(MonoTime moment, Pose& pose) const {
       (moment + lag_ - beside->newest().time - PartnerTrack::kAhead).as_seconds();
   const auto seen = static_cast<float>(std::clamp(1.0 - unseen_s / kPartnerLetGo_s, 0.0, 1.0));
   if (seen <= 0.0f) return;
-  const Shape predicted = shape_of(pose);
-  auto pulls = holds_.pulls(*met, predicted.palms, predicted.hips, *partner);
+  auto pulls = holds_.pulls(*met, shape_of(pose).figure,
+                            static_cast<float>((moment - newest_.time).as_seconds()), *partner);
   for (PalmPull& pull : pulls) pull.share *= strength_ * seen;
   pull_palms(skeleton_, pulls, pose);
+}
+
+std::optional<std::array<PalmGuesses, 2>> PartnerGuide::guesses(MonoTime moment,
+                                                                const Pose& pose) const {
+  const auto met = meeting();
+  if (!met) return std::nullopt;
+  const auto partner = track()->at_latest(moment + lag_);
+  if (!partner) return std::nullopt;
+  const Figure predicted = shape_of(pose).figure;
+  const auto ahead_s = static_cast<float>((moment - newest_.time).as_seconds());
+  return std::array{PalmGuesses::of(*met, predicted, ahead_s, *partner, 0),
+                    PalmGuesses::of(*met, predicted, ahead_s, *partner, 1)};
 }
 
 }  // namespace dance

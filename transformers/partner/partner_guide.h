@@ -35,6 +35,8 @@ class PartnerGuide {
   bool has_news() const { return has_news_; }
   // Corrects the prediction of a moment behind the newest pose.
   void guide(MonoTime moment, Pose& pose) const;
+  // What the partner says of the palms of that prediction; nothing while that is not known.
+  std::optional<std::array<PalmGuesses, 2>> guesses(MonoTime moment, const Pose& pose) const;
 
   // Nobody while there is no couple.
   std::optional<GuestId> partner() const;
@@ -45,14 +47,13 @@ class PartnerGuide {
   struct Probe {
     MonoTime moment;
     Meeting met;
-    Palms predicted;
-    Eigen::Vector3f predicted_hips;
+    Figure predicted;
+    float ahead_s;
   };
   static constexpr std::size_t kProbes = 64;
   struct Shape {
     MonoTime time;
-    Palms palms;
-    Eigen::Vector3f hips;
+    Figure figure;
   };
 
   Shape shape_of(const Pose& pose) const;

@@ -19,11 +19,24 @@ PartnerMoment between(const PartnerMoment& a, const PartnerMoment& b, MonoTime t
   for (std::size_t side = 0; side < 2; ++side)
     out.p_WPalm_m[side] = mix(a.p_WPalm_m[side], b.p_WPalm_m[side]);
   out.p_WHips_m = mix(a.p_WHips_m, b.p_WHips_m);
-  out.facing_W = b.facing_W;
+  out.facing_W = facing_along(mix(a.facing_W, b.facing_W));
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Eigen::Vector4f& from = a.R_WHand[side].coeffs();
+    const Eigen::Vector4f& to = b.R_WHand[side].coeffs();
+    const float same = from.dot(to) < 0.0f ? -1.0f : 1.0f;
+    out.R_WHand[side].coeffs() = from + t * (same * to - from);
+    out.R_WHand[side].normalize();
+  }
   return out;
 }
 
 }  // namespace
+
+Eigen::Vector3f facing_along(const Eigen::Vector3f& v) {
+  const Eigen::Vector3f along(v.x(), 0.0f, v.z());
+  const float size = along.norm();
+  return size > 1e-3f ? Eigen::Vector3f(along / size) : Eigen::Vector3f::UnitZ();
+}
 
 PartnerTrack::PartnerTrack() : skeleton_(average_skeleton()) {}
 
@@ -45,10 +58,9 @@ void PartnerTrack::take(const Pose& pose) {
   for (std::size_t side = 0; side < 2; ++side)
     now.p_WPalm_m[side] = palm_of(skeleton_, frames, side);
   now.p_WHips_m = frames.p_WB_m[0];
-  now.facing_W = frames.R_WB[0] * Eigen::Vector3f::UnitZ();
-  now.facing_W.y() = 0.0f;
-  const float size = now.facing_W.norm();
-  now.facing_W = size > 1e-3f ? Eigen::Vector3f(now.facing_W / size) : Eigen::Vector3f::UnitZ();
+  for (std::size_t side = 0; side < 2; ++side)
+    now.R_WHand[side] = frames.R_WB[index_of(kHandBones[side])];
+  now.facing_W = facing_along(frames.R_WB[0] * Eigen::Vector3f::UnitZ());
   next_ = (next_ + 1) % kKept;
   size_ = std::min(size_ + 1, kKept);
 }

@@ -1,4 +1,4 @@
-// PartnerTrack: where the palms and the hips of a dancer of this house have been in the last second
+// PartnerTrack: where the hands and the hips of a dancer of this house have been in the last second
 // and are now: what the prediction of a remote partner may know without any delay.
 //
 // Units/frames: metres in W; capture times of this house's clock.
@@ -8,6 +8,7 @@
 //               newest than kAhead. Poses that are not newer are refused.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -22,7 +23,12 @@ struct PartnerMoment {
   std::array<Eigen::Vector3f, 2> p_WPalm_m;
   Eigen::Vector3f p_WHips_m;
   Eigen::Vector3f facing_W;  // horizontal, unit
+  std::array<Eigen::Quaternionf, 2> R_WHand{Eigen::Quaternionf::Identity(),
+                                            Eigen::Quaternionf::Identity()};
 };
+
+// Which way somebody faces on the floor who looks along v.
+Eigen::Vector3f facing_along(const Eigen::Vector3f& v);
 
 class PartnerTrack {
  public:

@@ -20,9 +20,9 @@ constexpr double kMostAhead_beats = 0.05;
 constexpr Duration kSpare = Duration::ms(60);
 // Of a strength that is changed while dancing.
 constexpr double kStrengthPerSecond = 0.5;
-constexpr double kMostPaceChange = 0.1;
+constexpr double kMostRhythmPaceChange = 0.1;
 // Of the lead, where the dance comes to be in time, or is no longer.
-constexpr double kLeadPerSecond = 1.0;
+constexpr double kRhythmLeadPerSecond = 1.0;
 // The last fifth costs more error than it brings onto the beat.
 constexpr double kMostLead = 0.8;
 // What is further off is jumped to; without music there is no hurry, so more of it is walked.
@@ -172,7 +172,7 @@ MonoTime RhythmClock::wanted_moment(const DancerTimeline& timeline, MonoTime now
   // What has changed is walked to, at a pace that the play head follows.
   const double off_s = (on_beat - free).as_seconds();
   const double strength = strength_.advance(
-      now, std::min(kStrengthPerSecond, kMostPaceChange / std::max(1e-3, std::abs(off_s))));
+      now, std::min(kStrengthPerSecond, kMostRhythmPaceChange / std::max(1e-3, std::abs(off_s))));
   pace = 1.0 + strength * (music.beats_per_second() / dance_.beats_per_second() - 1.0);
   return free + Duration::seconds(strength * off_s);
 }
@@ -184,7 +184,7 @@ PlayoutClock::Choice RhythmClock::choose(const DancerTimeline& timeline, MonoTim
   // Where the truth was asked for, predictions fill a stall alone: a lead would scatter it.
   const bool leads = in_time_ && options_.beats <= 0.0;
   lead_strength_.want(leads ? kMostLead * strength_.value() : 0.0);
-  lead_.set_strength(static_cast<float>(lead_strength_.advance(now, kLeadPerSecond)));
+  lead_.set_strength(static_cast<float>(lead_strength_.advance(now, kRhythmLeadPerSecond)));
   const MonoTime moment = head_.advance(now, wanted, pace);
   const Duration off = wanted - moment;
   const Duration most = in_time_ ? kJumpInTime : kJumpFree;

@@ -24,8 +24,20 @@ TEST(CoupleTakes, ThePartnersHandsTellWhereHandsAre) {
   options.model = built_in_predict_model();
   options.horizons = {Duration::ms(120), Duration::ms(200)};
   options.noise_deg = 0.5;
+  options.keeps_palms = true;
   const CoupleEval eval = evaluate_couples(*couples, options);
   EXPECT_GT(eval.coupled[1], 0.9);
+  // What was kept is what the errors are of: weights that are fitted to it find palms again.
+  const auto fitted = fit_palms(eval.palms);
+  ASSERT_TRUE(fitted.has_value()) << fitted.error().what;
+  double plain_m = 0.0, fitted_m = 0.0;
+  for (const PalmMoment& palm : eval.palms) {
+    if (!palm.is_held) continue;
+    const PalmGuesses::Sum sum = palm.said.weighed(*fitted);
+    plain_m += static_cast<double>(palm.missing_m.norm());
+    fitted_m += static_cast<double>((sum.by_partner + sum.by_misses - palm.missing_m).norm());
+  }
+  EXPECT_LT(fitted_m, 0.75 * plain_m);
   for (const auto& e : eval.errors) {
     EXPECT_LT(e[1].body_m, e[0].body_m);
     EXPECT_LT(e[1].arms_m, 0.97 * e[0].arms_m);

@@ -33,7 +33,7 @@ struct Stage {
 Shown show(const std::vector<Pose>& remote, const std::vector<Pose>& here, const Stage& stage) {
   const Skeleton follow = salsa_skeleton(SalsaRole::kFollow, 1);
   PartnerTracks dancers;
-  dancers.set_body(kHere, salsa_skeleton(SalsaRole::kLead, 1));
+  const Skeleton lead = salsa_skeleton(SalsaRole::kLead, 1);
   auto flow = Flow::make(stage.words);
   EXPECT_TRUE(flow.has_value());
   flow->set_body(follow);
@@ -42,13 +42,13 @@ Shown show(const std::vector<Pose>& remote, const std::vector<Pose>& here, const
   Palms before{};
   for (std::size_t i = 0; i < kFrames; ++i) {
     const MonoTime now = couple_time(i);
-    if (i == 0 && stage.comes == 0) dancers.take(kHere, here[0]);  // allocates
+    if (i == 0 && stage.comes == 0) dancers.take(kHere, here[0], &lead);  // allocates
     const AllocationGuard guard;
     if (i > 0 && i >= stage.comes && i < stage.leaves &&
         (i < stage.hole_from || i >= stage.hole_to)) {
       Pose pose = here[i];
       pose.clock_id = stage.partner_clock;
-      dancers.take(kHere, pose);
+      dancers.take(kHere, pose, &lead);
     }
     if (i >= kDelay) flow->observe(remote[i - kDelay], now);
     Pose pose;

@@ -26,6 +26,10 @@ PartnerMoment moment_with(const Vector3f& left, const Vector3f& right, const Vec
   return {MonoTime(), {left, right}, hips, Vector3f::UnitZ()};
 }
 
+Figure figure_at(const Palms& palms, const Vector3f& hips) {
+  return {palms, hips, -Vector3f::UnitZ()};
+}
+
 TEST(PartnerTrack, SaysWherePalmsWereBetweenPosesAndALittleBeyond) {
   PartnerTrack track;
   EXPECT_FALSE(track.at(couple_time(0)).has_value());
@@ -72,6 +76,17 @@ TEST(PartnerTrack, NoiseIsNotThrownFarBeyondTheNewest) {
   EXPECT_LT(std::abs(beyond->p_WHips_m.x()), 0.01f);
 }
 
+TEST(PartnerTrack, SaysHowHandsAreTurnedBetweenPoses) {
+  PartnerTrack track;
+  for (std::size_t i = 0; i < 4; ++i)
+    track.take(standing_at({0.0f, 0.95f, 0.0f}, 0.1f * static_cast<float>(i), couple_time(i)));
+  const auto half = track.at(couple_time(1) + (couple_time(2) - couple_time(1)) / 2);
+  ASSERT_TRUE(half.has_value());
+  const Eigen::Quaternionf is = exp_rotation(Vector3f(0.0f, 0.15f, 0.0f));
+  for (const Eigen::Quaternionf& R : half->R_WHand) EXPECT_LT(R.angularDistance(is), 1e-3f);
+  EXPECT_LT((half->facing_W - is * Vector3f::UnitZ()).norm(), 1e-3f);
+}
+
 TEST(PartnerTracks, AFullHouseGivesTheSilentOnesPlaceToANewcomer) {
   PartnerTracks tracks;
   const auto pose_at = [](float x, std::size_t frame) {
@@ -102,78 +117,117 @@ TEST(PartnerTracks, KeepsEachDancerAndNoMoreThanItsBound) {
 TEST(Meeting, OffsetsTurnWithTheLineBetweenTheTwo) {
   const PartnerMoment partner =
       moment_with({0.2f, 1.0f, 0.4f}, {-0.2f, 1.0f, 0.4f}, {0.0f, 0.95f, 0.0f});
-  const Palms own{Vector3f(0.25f, 1.0f, 0.5f), Vector3f(-0.25f, 1.0f, 0.5f)};
   const Vector3f hips(0.0f, 0.95f, 0.9f);
-  const Meeting met = Meeting::of(own, hips, partner);
+  const Figure own = figure_at({Vector3f(0.25f, 1.0f, 0.5f), Vector3f(-0.25f, 1.0f, 0.5f)}, hips);
+  const Meeting met = Meeting::of(own, partner);
   for (std::size_t pair = 0; pair < kPalmPairs; ++pair)
-    EXPECT_LT((met.palm_at(pair, hips, partner) - own[pair / 2]).norm(), 1e-6f);
+    EXPECT_LT((met.palm_at(pair, hips, partner) - own.palms[pair / 2]).norm(), 1e-6f);
   // Both walk a quarter round their middle.
   const auto turned = [](const Vector3f& v) { return Vector3f(v.z(), v.y(), -v.x()); };
   const PartnerMoment later = moment_with(turned(partner.p_WPalm_m[0]),
                                           turned(partner.p_WPalm_m[1]), turned(partner.p_WHips_m));
   for (std::size_t pair = 0; pair < kPalmPairs; ++pair)
-    EXPECT_LT((met.palm_at(pair, turned(hips), later) - turned(own[pair / 2])).norm(), 1e-5f);
+    EXPECT_LT((met.palm_at(pair, turned(hips), later) - turned(own.palms[pair / 2])).norm(), 1e-5f);
 }
 
-// A palm that follows the partner's exactly, and predictions that stay behind.
-HandHolds taught(float follows, int moments, float apart_m = 0.05f) {
-  HandHolds holds;
-  for (int i = 0; i < moments; ++i) {
-    const Vector3f moved(0.06f * std::sin(0.4f * static_cast<float>(i)), 0.05f, 0.0f);
-    const Vector3f hips(0.0f, 0.95f, 1.0f), partner_hips(0.0f, 0.95f, 0.0f);
-    const Vector3f far(9.0f, 1.0f, 0.0f);
-    const Palms own{Vector3f(0.0f, 1.0f, 0.5f + apart_m), far};
-    const PartnerMoment then = moment_with({0.0f, 1.0f, 0.5f}, -far, partner_hips);
-    const PartnerMoment now = moment_with(Vector3f(0.0f, 1.0f, 0.5f) + moved, -far, partner_hips);
-    const Meeting met = Meeting::of(own, hips, then);
-    holds.learn(met, own, hips, {Vector3f(own[0] + follows * moved), far}, now, 1.0 / 30.0);
+// Two palms that dance, of which the dancer's follows the partner's so far; predictions know
+// nothing of it.
+class TwoPalms {
+ public:
+  explicit TwoPalms(float follows, float apart_m = 0.1f) : follows_(follows), apart_m_(apart_m) {}
+
+  void dance(int moments) {
+    for (int i = 0; i < moments; ++i, ++turn_) {
+      Meeting met = meeting();
+      holds.follow(met, kStep_s);
+      holds.describe(met);
+      const Vector3f moved = moved_at(turn_);
+      holds.learn(met, met.own, kAhead_s,
+                  {Vector3f(met.own.palms[0] + follows_ * moved), met.own.palms[1]}, then(moved),
+                  kStep_s);
+    }
   }
-  return holds;
-}
+  void set_follows(float follows) { follows_ = follows; }
+  // What is done to a prediction where the partner's palm has gone up by 0.1 m.
+  std::array<PalmPull, 2> pulls() const {
+    Meeting met = meeting();
+    holds.describe(met);
+    return holds.pulls(met, met.own, kAhead_s, then({0.0f, 0.1f, 0.0f}));
+  }
+  // How far up the palm is drawn, of the partner's way.
+  float drawn() const { return pulls()[0].share * pulls()[0].shift_W_m.y() / 0.1f; }
+
+  HandHolds holds;
+
+ private:
+  static constexpr float kAhead_s = 0.2f;
+  static constexpr double kStep_s = 1.0 / 30.0;
+
+  static Vector3f moved_at(int turn) {
+    return {0.06f * std::sin(0.4f * static_cast<float>(turn)), 0.05f, 0.0f};
+  }
+  PartnerMoment then(const Vector3f& moved) const {
+    return moment_with(Vector3f(0.0f, 1.0f, 0.5f) + moved, {-9.0f, -1.0f, 0.0f},
+                       {0.0f, 0.95f, 0.0f});
+  }
+  Meeting meeting() const {
+    return Meeting::of(
+        figure_at({Vector3f(0.0f, 1.0f, 0.5f + apart_m_), Vector3f(9.0f, 1.0f, 0.0f)},
+                  {0.0f, 0.95f, 1.0f}),
+        then(Vector3f::Zero()));
+  }
+
+  float follows_, apart_m_;
+  int turn_ = 0;
+};
 
 TEST(HandHolds, SayNothingBeforeTheyHaveProvedRight) {
-  const HandHolds holds;
-  EXPECT_EQ(holds.trust(), 0.0f);
-  for (std::size_t pair = 0; pair < kPalmPairs; ++pair) EXPECT_EQ(holds.share(pair, 0.05f), 0.0f);
+  const TwoPalms palms(1.0f);
+  EXPECT_EQ(palms.holds.trust(), 0.0f);
+  for (const PalmPull& pull : palms.pulls()) EXPECT_EQ(pull.share, 0.0f);
 }
 
-TEST(HandHolds, LearnHowFarPalmsFollowTheOthers) {
-  EXPECT_GT(taught(1.0f, 60).share(0, 0.05f), 0.7f);
-  EXPECT_NEAR(taught(0.5f, 60).share(0, 0.05f), 0.5f, 0.13f);
-  EXPECT_LT(taught(0.0f, 60).share(0, 0.05f), 0.02f);
-  EXPECT_EQ(taught(-1.0f, 60).share(0, 0.05f), 0.0f);
-  // Other palms of the same two follow as usual; those that are far apart not at all.
-  EXPECT_GT(taught(1.0f, 60).share(3, 0.05f), 0.3f);
-  EXPECT_LT(taught(1.0f, 60).share(3, 0.05f), taught(1.0f, 60).share(0, 0.05f));
-  EXPECT_EQ(taught(1.0f, 60).share(0, 0.6f), 0.0f);
+TEST(HandHolds, LearnWhetherPalmsFollowTheOthers) {
+  TwoPalms held(1.0f), half(0.5f), free(0.0f), against(-1.0f), far(1.0f, 0.6f);
+  for (TwoPalms* palms : {&held, &half, &free, &against, &far}) palms->dance(60);
+  EXPECT_EQ(held.holds.trust(), 1.0f);
+  EXPECT_GT(held.drawn(), 0.6f);
+  EXPECT_GT(held.drawn(), half.drawn() + 0.1f);
+  EXPECT_GT(half.drawn(), 0.2f);
+  EXPECT_LT(free.drawn(), 0.02f);
+  EXPECT_EQ(against.drawn(), 0.0f);
+  EXPECT_EQ(far.drawn(), 0.0f);
+  EXPECT_EQ(held.pulls()[1].share, 0.0f);
 }
 
-TEST(HandHolds, ForgetWithinSecondsThatPalmsWereHeld) {
-  HandHolds holds = taught(1.0f, 60);
-  const HandHolds open = taught(0.0f, 90);
-  EXPECT_LT(open.share(0, 0.05f), 0.05f);
-  const Vector3f hips(0.0f, 0.95f, 1.0f), far(9.0f, 1.0f, 0.0f);
-  for (int i = 0; i < 90; ++i) {
-    const Palms own{Vector3f(0.0f, 1.0f, 0.55f), far};
-    const PartnerMoment then = moment_with({0.0f, 1.0f, 0.5f}, -far, Vector3f(0.0f, 0.95f, 0.0f));
-    PartnerMoment now = then;
-    now.p_WPalm_m[0].y() += 0.06f;
-    holds.learn(Meeting::of(own, hips, then), own, hips, own, now, 1.0 / 30.0);
-  }
-  EXPECT_LT(holds.share(0, 0.05f), 0.25f);
+TEST(HandHolds, ForgetWithinASecondThatPalmsWereHeld) {
+  TwoPalms palms(1.0f);
+  palms.dance(60);
+  const float held = palms.drawn();
+  palms.set_follows(0.0f);
+  palms.dance(30);
+  EXPECT_LT(palms.drawn(), 0.6f * held);
 }
 
-TEST(HandHolds, PullTowardsThePartnersPalm) {
-  const HandHolds holds = taught(1.0f, 60);
-  const Vector3f hips(0.0f, 0.95f, 1.0f), far(9.0f, 1.0f, 0.0f);
-  const Palms own{Vector3f(0.0f, 1.0f, 0.55f), far};
-  const PartnerMoment then = moment_with({0.0f, 1.0f, 0.5f}, -far, Vector3f(0.0f, 0.95f, 0.0f));
-  PartnerMoment now = then;
-  now.p_WPalm_m[0] += Vector3f(0.0f, 0.1f, 0.0f);
-  const auto pulls = holds.pulls(Meeting::of(own, hips, then), own, hips, now);
-  EXPECT_LT((pulls[0].shift_W_m - Vector3f(0.0f, 0.1f, 0.0f)).norm(), 1e-4f);
-  EXPECT_GT(pulls[0].share, 0.7f);
-  EXPECT_EQ(pulls[1].share, 0.0f);
+TEST(HandHolds, WhatPredictionsMissedTheyMissAgain) {
+  // Of a partner who is proved to count, and stands.
+  TwoPalms palms(1.0f);
+  palms.dance(60);
+  Meeting met = Meeting::of(
+      figure_at({Vector3f(0.0f, 1.0f, 0.6f), Vector3f(9.0f, 1.0f, 0.0f)}, {0.0f, 0.95f, 1.0f}),
+      moment_with({0.0f, 1.0f, 0.5f}, {-9.0f, -1.0f, 0.0f}, {0.0f, 0.95f, 0.0f}));
+  const auto without = palms.holds.pulls(met, met.own, 0.2f, met.partner);
+  met.missed_m[0] = Vector3f(0.0f, 0.1f, 0.0f);
+  met.missed_ahead_s = 0.2f;
+  const auto with = palms.holds.pulls(met, met.own, 0.2f, met.partner);
+  const auto nearer = palms.holds.pulls(met, met.own, 0.1f, met.partner);
+  const auto up = [&](const std::array<PalmPull, 2>& pulls) {
+    return pulls[0].share * pulls[0].shift_W_m.y() - without[0].share * without[0].shift_W_m.y();
+  };
+  EXPECT_GT(up(with), 0.003f);
+  EXPECT_LT(up(with), 0.05f);
+  EXPECT_LT((with[0].shift_W_m - without[0].shift_W_m).cross(Vector3f::UnitY()).norm(), 1e-6f);
+  EXPECT_LT(nearer[0].shift_W_m.norm(), 0.1f);
 }
 
 // Two who face each other at a distance, for so long; whether they are a couple then.
