@@ -1,15 +1,13 @@
-// Training of the beat tracker's model from songs whose beats are known: a network that tells
-// strokes on beats from strokes on halves and elsewhere, and the patterns of strokes in which the
-// songs' bars fall into kinds.
+// Training of the beat tracker's model from songs whose beats are known: a recurrent network that
+// hears beats and tempi (rhythm_net_fit.h), and the patterns of strokes in which the songs' bars
+// fall into kinds.
 //
 // Units/frames: seconds of a song; hops of onset strengths.
 // Ownership:    returns a model of its own.
-// Threads:      none inside; songs may be loaded at the same time. The same songs and seed give the
-//               same model.
+// Threads:      two while it trains; songs may be loaded at the same time. The same songs and seed
+//               give the same model.
 // Failure:      an Error names the song that cannot be learnt from.
-// Source:       softmax regression with one hidden layer, dropout (Srivastava et al., 2014) and
-//               Adam (Kingma and Ba, 2015); k-means with seeds drawn by distance (Arthur and
-//               Vassilvitskii, 2007).
+// Source:       k-means with seeds drawn by distance (Arthur and Vassilvitskii, 2007).
 #pragma once
 
 #include <array>

@@ -1,8 +1,8 @@
-// BeatModel: a beat tracker's parameters, trained on songs whose beats are known: a network that
-// classifies strokes, one that chooses the level of the tempo, and rhythm patterns.
+// BeatModel: a beat tracker's parameters, trained on songs whose beats are known: a recurrent
+// network that hears beats and the tempo of steps, and rhythm patterns.
 // `dance music train` makes one; data/music/beats.model is built in.
 //
-// Units/frames: as in stroke_net.h and meter_pattern.h.
+// Units/frames: as in net/rhythm_net.h and meter_pattern.h.
 // Ownership:    a value that many trackers may share.
 // Threads:      none inside; const calls may run at the same time.
 // Failure:      read_beat_model names what is wrong with a file; what it accepts is finite and

@@ -4,7 +4,7 @@
 //
 // Units/frames: mono samples at a given rate. Times in Beat count from the first sample on a clock
 //               that has zero there; the caller adds the time at which that was heard. A hop costs
-//               about 0.4 ms of one core.
+//               about 0.5 ms of one core.
 // Ownership:    owns its tables, about 3.5 MB; never allocates after construction.
 // Threads:      none inside; one owner.
 // Failure:      samples that are not finite count as silence. beat().playing is false before the
