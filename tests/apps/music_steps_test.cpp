@@ -104,8 +104,8 @@ TEST_F(MusicSteps, OfADancerChooseTheLevelOfWhatAMicrophoneHears) {
   ASSERT_TRUE(wait_for(
       [&] {
         work();
-        return is_near(stepping.tempo_bpm(), kStepped_bpm) && silent.tempo_bpm() > 0.0 &&
-               another.tempo_bpm() > 0.0;
+        return stepping.told() && is_near(stepping.tempo_bpm(), kStepped_bpm) &&
+               is_near(silent.tempo_bpm(), kHeard_bpm) && is_near(another.tempo_bpm(), kHeard_bpm);
       },
       std::chrono::seconds(120)))
       << stepping.tempo_bpm() << " BPM; " << talk();
