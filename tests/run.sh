@@ -154,7 +154,7 @@ if [ "$sanitizers" = yes ]; then
     # The quality of results on whole songs and takes takes minutes here, and runs no code that smaller tests leave out.
     quality='^BeatSongs|Takes\.|BeatTracker\.(FindsEachTempo|WorksAtEachSampleRate|TracksSalsa|FindsTheNextSong|FollowsATempo)'
     quality+='|BeatTracker\.(IsOnTheNewTempo|TurnsToTheLevel|NeverUsesTheFuture)|MusicEval\.(SaysByGenre|TakesSeveral|HearsASong)'
-    quality+='|BeatTracker\.(DoesNotHangOnLoudness|TakesTheLevel|KeepsTheBeat|CountsOn|NumbersEach)|MusicEval\.SeesRealCouples'
+    quality+='|BeatTracker\.(DoesNotHangOnLoudness|TakesTheLevel|KeepsTheBeat|CountsOn|NumbersEach)|MusicEval\.SeesRealCouples|RhythmNetFit\.Learns'
     quality+='|RoundTrip\.(NoiseAlone|FindsItInNoise)|RowCheckTest\.Settles|Chessboard\.AViewOfABent|Stylize\.(TheOverview|Gains)'
     quality+='|StereoDepth|SeveralEval|TouchEval\.LimitsOf|Holistic\.'
     [ ${#only[@]} != 0 ] || build_ahead tsan thread_targets flow_targets
