@@ -142,6 +142,7 @@ class RhythmTrainer {
       g[i] = static_cast<float>((g[i] + halves_[1].gradient[i]) / weights);
       square += static_cast<double>(g[i]) * static_cast<double>(g[i]);
     }
+    DANCE_ASSERT(std::isfinite(square));
     const auto shrink =
         static_cast<float>(std::min(1.0, kMostGradient / (std::sqrt(square) + 1e-9)));
     ++steps_;

@@ -192,10 +192,12 @@ class RhythmPasses {
     for (std::size_t i = 0; i < kRhythmMeanings; ++i) answer[i] *= weight;
     float* tempi = answer + kRhythmMeanings;
     to_shares(tempi, kTempi);
+    // A beat that the list lost is no tempo, but some place must be likely.
+    const float place = std::clamp(tempo, -1.0f, static_cast<float>(kTempi));
     std::array<float, kTempi> wanted;
     float sum = 0.0f;
     for (std::size_t i = 0; i < kTempi; ++i) {
-      const float away = (static_cast<float>(i) - tempo) / kTempoSpread;
+      const float away = (static_cast<float>(i) - place) / kTempoSpread;
       sum += wanted[i] = std::exp(-0.5f * away * away);
     }
     std::size_t best = 0;
@@ -205,7 +207,7 @@ class RhythmPasses {
       tempo_loss -= static_cast<double>(weight * wanted[i]) *
                     std::log(std::max(tempi[i], 1e-9f) / std::max(wanted[i], 1e-9f));
     }
-    if (std::abs(static_cast<float>(best) - tempo) < 1.6f) right += static_cast<double>(weight);
+    if (std::abs(static_cast<float>(best) - place) < 1.6f) right += static_cast<double>(weight);
     for (std::size_t i = 0; i < kTempi; ++i)
       tempi[i] = kTempoWeight * weight * (tempi[i] - wanted[i]);
     std::fill(tempi + kTempi, answer + kRhythmWideAnswers, 0.0f);

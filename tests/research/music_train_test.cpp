@@ -54,16 +54,39 @@ TEST(MusicTraining, LabelsWhatANetworkHearsByTheBeatsOfTheSong) {
   EXPECT_NEAR(song->least_tempo_bpm, 133.0, 0.5);
   const RhythmSong& rhythm = song->rhythm;
   ASSERT_EQ(rhythm.features.size(), rhythm.classes.size() * RhythmFeatures::kCount);
-  std::array<double, 3> sums{};
+  const std::vector<double> beats_s = DrumMusic::steady(24.0, 133.0);
+  const double half_s = 0.5 * 60.0 / 133.0;
+  const double hop_s = std::lround(22050.0 / OnsetStrength::kHops_hz) / 22050.0;
+  constexpr double kOnBeat_s = 0.0151, kLimit_s = 0.001;
+  std::array<int, 3> seen{};
+  double all = 0.0, before_beats = 0.0, after_beats = 0.0;
+  const auto rises = [&](std::size_t step) {
+    double sum = 0.0;
+    const float* row = &rhythm.features[step * RhythmFeatures::kCount];
+    for (std::size_t b = 0; b < RhythmFeatures::kBands; ++b)
+      sum += static_cast<double>(row[RhythmFeatures::kBands + RhythmFeatures::kTones + b]);
+    return sum;
+  };
   for (std::size_t i = 0; i < rhythm.classes.size(); ++i) {
-    sums[rhythm.classes[i]] += static_cast<double>(rhythm.weights[i]);
-    if (rhythm.weights[i] > 0.0f) {
-      ASSERT_NEAR(rhythm.tempi[i], RhythmNet::place_of_tempo(133.0), 0.2);
-    }
+    all += rises(i) / static_cast<double>(rhythm.classes.size());
+    if (rhythm.weights[i] <= 0.0f) continue;
+    ASSERT_NEAR(rhythm.tempi[i], RhythmNet::place_of_tempo(133.0), 0.2);
+    const double t = static_cast<double>(i + 1) * 2.0 * hop_s - RhythmNet::kDelay_s;
+    const double to_beat = std::abs(std::remainder(t - beats_s[0], 2.0 * half_s));
+    const double to_half = half_s - to_beat;
+    if (std::abs(to_beat - kOnBeat_s) < kLimit_s || std::abs(to_half - kOnBeat_s) < kLimit_s)
+      continue;
+    const int expected = to_beat < kOnBeat_s ? 0 : to_half < kOnBeat_s ? 1 : 2;
+    ASSERT_EQ(rhythm.classes[i], expected) << t;
+    ++seen[rhythm.classes[i]];
+    // The stroke itself is heard before its label comes.
+    if (expected == 0) before_beats += std::max(rises(i - 9), rises(i - 8));
+    if (expected == 0) after_beats += std::max(rises(i), rises(i - 1));
   }
-  EXPECT_GT(sums[0], 100.0);
-  EXPECT_NEAR(sums[1], sums[0], 1e-2 * sums[0]);
-  EXPECT_NEAR(sums[2], sums[0], 1e-2 * sums[0]);
+  EXPECT_GT(seen[0], 40);
+  EXPECT_GT(seen[1], 40);
+  EXPECT_GT(before_beats / seen[0], 2.0 * all);
+  EXPECT_LT(after_beats, before_beats);
 }
 
 TEST(MusicTraining, TheSameSongsGiveTheSameModel) {

@@ -63,6 +63,16 @@ TEST(RhythmNetFit, LearnsWhatOnlyMemoryTells) {
   EXPECT_GT(tempi, moments * 9 / 10);
 }
 
+TEST(RhythmNetFit, ALostBeatInAListIsNoTempoAndHarmsNothing) {
+  Random random(13);
+  const RhythmSong song = song_of(random, 10.0f);
+  RhythmSong lost = song_of(random, 10.0f);
+  for (std::size_t k = 40; k < 60; ++k) lost.tempi[k] = k % 2 == 0 ? -30.0f : 400.0f;
+  const RhythmNet net = fit_rhythm_net({{&song}, {&lost}}, {.rounds = 3, .seed = 1});
+  EXPECT_TRUE(net.out.allFinite());
+  EXPECT_TRUE(net.layers[0].in.allFinite());
+}
+
 TEST(RhythmNetFit, TheSameSeedGivesTheSameNetworkAndAnotherAnother) {
   Random random(12);
   const RhythmSong song = song_of(random, 10.0f);

@@ -38,7 +38,7 @@ struct MadeSong {
 enum class SongUse {
   kTaught,
   kMixed,  // taught too; half of the songs borrow layers, drums and instruments from other styles
-  kKeptBack,  // rows and instruments that the others never have
+  kKeptBack,  // rows and instruments that taught songs never have, and mixed ones seldom
 };
 
 MadeSong make_song(const SongStyle& style, double seconds, std::uint64_t seed,
