@@ -56,7 +56,7 @@ TEST(MusicTraining, LabelsWhatANetworkHearsByTheBeatsOfTheSong) {
   ASSERT_EQ(rhythm.features.size(), rhythm.classes.size() * RhythmFeatures::kCount);
   const std::vector<double> beats_s = DrumMusic::steady(24.0, 133.0);
   const double half_s = 0.5 * 60.0 / 133.0;
-  const double hop_s = std::lround(22050.0 / OnsetStrength::kHops_hz) / 22050.0;
+  const double hop_s = std::round(22050.0 / OnsetStrength::kHops_hz) / 22050.0;
   constexpr double kOnBeat_s = 0.0151, kLimit_s = 0.001;
   std::array<int, 3> seen{};
   double all = 0.0, before_beats = 0.0, after_beats = 0.0;
