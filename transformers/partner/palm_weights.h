@@ -3,6 +3,7 @@
 //
 // Units/frames: a guess is its difference to the plain prediction, metres in W; signs are numbers
 //               around 0.
+// Ownership:    plain values.
 // Threads:      constants only.
 // Failure:      none.
 // Source:       `dance predict eval --partner --fit-palms`, as docs/prediction.md has it: three

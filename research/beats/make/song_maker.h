@@ -33,8 +33,7 @@ struct MadeSong {
   std::vector<double> beats_s;  // bars of four
 };
 
-// Songs that are kept back have rows and instruments that the others never have: a tracker that
-// learnt from the others has not heard them.
+// What a song is for: to be taught, or to judge a tracker that has not heard its like.
 enum class SongUse {
   kTaught,
   kMixed,  // taught too; half of the songs borrow layers, drums and instruments from other styles
