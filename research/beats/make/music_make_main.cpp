@@ -128,7 +128,7 @@ int main(int argc, char** argv) {
   line.add("FOLDER", wishes.folder, "where the songs go, each with its .beats file").required();
   line.add("--style", wishes.styles, "songs of this style only, once for each").one_each_time();
   line.add_flag("--kept-back", wishes.is_kept_back,
-                "rows and instruments that other songs never have, and mixed ones seldom, to judge by");
+                "to judge by: rows and instruments that others never have, and mixed ones seldom");
   line.add_flag("--mixed", wishes.is_mixed,
                 "half of the songs borrow rows, drums and instruments from other styles");
   line.add("--of-each", wishes.of_each, "songs of each style").range(1, 100).shows_default();
