@@ -109,6 +109,10 @@ endif()
 dance_optional(DANCE_VIEWER "Viewer" DANCE_HAVE_VIEWER ${viewer_found}
   "libglfw3-dev libepoxy-dev libimgui-dev libegl-dev")
 
+# Headsets: the loader of OpenXR, which finds the runtime of the headset.
+pkg_check_modules(OPENXR QUIET IMPORTED_TARGET openxr)
+dance_optional(DANCE_XR "Headsets" DANCE_HAVE_XR "${OPENXR_FOUND}" "libopenxr-dev")
+
 pkg_check_modules(SNDFILE QUIET IMPORTED_TARGET sndfile)
 dance_optional(DANCE_MUSIC "Music" DANCE_HAVE_MUSIC "${SNDFILE_FOUND}" "libsndfile1-dev")
 # Music that libsndfile cannot read, videos in and out: a module that is loaded when it is wanted (formats/media). From
