@@ -11,7 +11,8 @@ std::string name_of(XrResult result) {
     return #name;
     XR_LIST_ENUM_XrResult(DANCE_XR_NAME)
 #undef DANCE_XR_NAME
-        default : return "error " + std::to_string(static_cast<int>(result));
+            default : return "error " +
+                      std::to_string(static_cast<int>(result));
   }
 }
 
