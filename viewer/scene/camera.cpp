@@ -17,6 +17,7 @@ using Eigen::Vector3f;
 namespace {
 
 constexpr float kNear_m = 0.1f;
+constexpr float kEyeNear_m = 0.04f;  // own hands come close to the eyes
 constexpr float kFar_m = 400.0f;
 constexpr float kClosest_m = 1.2f;
 constexpr float kThreeQuarter_rad = 0.35f;
@@ -54,6 +55,29 @@ Matrix4f OrbitCamera::clip_from_view(float aspect) const {
   clip(2, 3) = 2.0f * kFar_m * kNear_m / (kNear_m - kFar_m);
   clip(3, 2) = -1.0f;
   return clip;
+}
+
+StageEye eye_of(const OrbitCamera& camera, int width_px, int height_px) {
+  const auto height = static_cast<float>(height_px);
+  return {camera.eye_W_m(), camera.view_from_world(),
+          camera.clip_from_world(static_cast<float>(width_px) / height),
+          height / (2.0f * std::tan(0.5f * camera.fov_y_rad))};
+}
+
+StageEye eye_at(const Vector3f& eye_W_m, const Matrix3f& R_WE, const EyeTangents& tangents,
+                int height_px) {
+  const float width = tangents.right - tangents.left;
+  const float height = tangents.up - tangents.down;
+  Matrix4f clip = Matrix4f::Zero();
+  clip(0, 0) = 2.0f / width;
+  clip(0, 2) = (tangents.right + tangents.left) / width;
+  clip(1, 1) = 2.0f / height;
+  clip(1, 2) = (tangents.up + tangents.down) / height;
+  clip(2, 2) = (kFar_m + kEyeNear_m) / (kEyeNear_m - kFar_m);
+  clip(2, 3) = 2.0f * kFar_m * kEyeNear_m / (kEyeNear_m - kFar_m);
+  clip(3, 2) = -1.0f;
+  const Matrix4f view = view_matrix(R_WE, eye_W_m);
+  return {eye_W_m, view, clip * view, static_cast<float>(height_px) / height};
 }
 
 std::optional<ScreenPoint> project(const OrbitCamera& camera, const Vector3f& p_W_m, float width_px,

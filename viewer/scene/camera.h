@@ -34,6 +34,23 @@ struct OrbitCamera {
   }
 };
 
+// What drawing needs of whatever looks at the stage: a camera, or an eye in a headset.
+struct StageEye {
+  Eigen::Vector3f eye_W_m = Eigen::Vector3f::Zero();
+  Eigen::Matrix4f view_from_world = Eigen::Matrix4f::Identity();
+  Eigen::Matrix4f clip_from_world = Eigen::Matrix4f::Identity();
+  float px_at_1m = 1000.0f;  // pixels of a metre that is a metre away
+};
+StageEye eye_of(const OrbitCamera& camera, int width_px, int height_px);
+
+// Half the opening of an eye's picture to each side, as tangents; left and down are negative.
+struct EyeTangents {
+  float left, right, up, down;
+};
+// R_WE's columns: right, up and backward of the eye.
+StageEye eye_at(const Eigen::Vector3f& eye_W_m, const Eigen::Matrix3f& R_WE,
+                const EyeTangents& tangents, int height_px);
+
 struct ScreenPoint {
   float x_px = 0.0f;
   float y_px = 0.0f;

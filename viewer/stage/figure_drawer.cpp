@@ -40,11 +40,11 @@ FigureDrawer::FigureDrawer(Quality quality)
   glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, joint_buffer_.name());
 }
 
-Result<void> FigureDrawer::take(std::span<const PosedFigure> figures, const OrbitCamera& camera,
-                                int height_px, const StageLook& look) {
+Result<void> FigureDrawer::take(std::span<const PosedFigure> figures, const StageEye& eye,
+                                const StageLook& look) {
   drawn_ = {};
   store_.begin_picture();
-  choose(figures, camera, height_px, look);
+  choose(figures, eye, look);
   group(figures);
   for (const Group& group : shadows_)
     for (const FigureBatch& batch : group.gpu->shape().batches)
@@ -53,12 +53,11 @@ Result<void> FigureDrawer::take(std::span<const PosedFigure> figures, const Orbi
   return {};
 }
 
-void FigureDrawer::choose(std::span<const PosedFigure> figures, const OrbitCamera& camera,
-                          int height_px, const StageLook& look) {
+void FigureDrawer::choose(std::span<const PosedFigure> figures, const StageEye& eye,
+                          const StageLook& look) {
   figures_.clear();
   waiting_.clear();
-  const Eigen::Matrix4f view = camera.view_from_world();
-  const float px_at_1m = static_cast<float>(height_px) / (2.0f * std::tan(0.5f * camera.fov_y_rad));
+  const Eigen::Matrix4f& view = eye.view_from_world;
   for (std::size_t i = 0; i < figures.size(); ++i) {
     Figure figure;
     figure.index = i;
@@ -69,7 +68,7 @@ void FigureDrawer::choose(std::span<const PosedFigure> figures, const OrbitCamer
     }
     const Eigen::Vector3f& hips_W_m = figures[i].frames.position(Bone::kHips);
     figure.depth_m = -(view.row(2).head<3>().dot(hips_W_m) + view(2, 3));
-    const double height = static_cast<double>(px_at_1m * kFigureHeight_m /
+    const double height = static_cast<double>(eye.px_at_1m * kFigureHeight_m /
                                               std::max(kNearest_m, std::abs(figure.depth_m)));
     const double of_pixel =
         quality_ == Quality::kHigh ? kTrianglesOfPixelHigh : kTrianglesOfPixelLow;

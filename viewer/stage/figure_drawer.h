@@ -34,7 +34,7 @@ class FigureDrawer {
 
   FigureStore& store() { return store_; }
   // Chooses levels of detail and uploads the joints.
-  Result<void> take(std::span<const PosedFigure> figures, const OrbitCamera& camera, int height_px,
+  Result<void> take(std::span<const PosedFigure> figures, const StageEye& eye,
                     const StageLook& look);
   // Indices of the figures of take() whose mesh is not there yet.
   std::span<const std::size_t> waiting() const { return waiting_; }
@@ -73,8 +73,7 @@ class FigureDrawer {
   };
 
   static Layout layout_of(const PosedFigure& figure);
-  void choose(std::span<const PosedFigure> figures, const OrbitCamera& camera, int height_px,
-              const StageLook& look);
+  void choose(std::span<const PosedFigure> figures, const StageEye& eye, const StageLook& look);
   void write(const PosedFigure& figure, const Layout& layout);
   void group(std::span<const PosedFigure> figures);
   void upload();

@@ -16,8 +16,13 @@ constexpr float kRingRuns_m = 2.2f;  // in a beat
 constexpr float kOfOtherBeats = 0.55f;
 constexpr float kOfAGlow = 0.5f;
 constexpr float kWaitingRadius_m = 0.5f;
+// The pool of light round an area, and where, in its radii, the shader lets the floor end.
+constexpr float kRoundArea_m = 1.6f;
+constexpr float kEndsAtPools = 2.1f;
 
 }  // namespace
+
+float radius_of_floor_that_ends_at(float ends_m) { return ends_m / kEndsAtPools - kRoundArea_m; }
 
 BeatPulse pulse_of(const SceneMusic& music) {
   const double beat = std::floor(music.beats);
@@ -67,7 +72,7 @@ void FloorPainter::draw_floor(const StageLight& light, const Matrix4f& clip_from
   light.use(floor_, eye_W_m);
   set_uniform(floor_, "u_clip_from_world", clip_from_world);
   set_uniform(floor_, "u_centre", area.centre_W_m);
-  set_uniform(floor_, "u_pool", area.radius_m + 1.6f);
+  set_uniform(floor_, "u_pool", area.radius_m + kRoundArea_m);
   set_uniform(floor_, "u_reflect", quality_ == Quality::kHigh ? 1.0f : 0.6f);
   set_uniform(floor_, "u_pulse", Vector3f(pulse.radius_m, pulse.ring, pulse.glow));
   glEnable(GL_BLEND);

@@ -24,6 +24,9 @@ struct StageArea {
   float radius_m;
 };
 
+// Of an area whose floor has faded out so far from its centre.
+float radius_of_floor_that_ends_at(float ends_m);
+
 // Of the ring that runs outwards with each beat.
 struct BeatPulse {
   float radius_m = 0.0f;

@@ -16,6 +16,12 @@ namespace dance {
 // computers without a graphics card.
 enum class Quality { kLow, kHigh };
 
+// Where the floor fades out, for eyes within it.
+struct FloorLimit {
+  float x_m = 0.0f, z_m = 0.0f;
+  float ends_m = 6.0f;
+};
+
 struct StageLook {
   bool trails = false;  // of the hands
   bool pulse = true;    // the floor shows the beat
@@ -24,6 +30,8 @@ struct StageLook {
   int stage = 0;
   // Drawn as that guest sees it: without the guest's own head.
   std::optional<GuestId> through_eyes_of = {};
+  // Not set: the floor is as wide as its guests need.
+  std::optional<FloorLimit> floor = {};
 };
 
 }  // namespace dance

@@ -61,19 +61,22 @@ Result<void> StageRenderer::draw(const SceneState& scene, const OrbitCamera& cam
 
 Result<void> StageRenderer::prepare(const SceneState& scene, const OrbitCamera& camera,
                                     int width_px, int height_px) {
+  return prepare(scene, eye_of(camera, width_px, height_px), width_px, height_px);
+}
+
+Result<void> StageRenderer::prepare(const SceneState& scene, const StageEye& eye, int width_px,
+                                    int height_px) {
   if (auto sized = target_.resize(width_px, height_px); !sized) return sized;
   Memory& memory = memory_of(look_.stage);
   posed_ = memory.poser.pose(scene);
-  if (auto taken = figures_.take(posed_, camera, height_px, look_); !taken) return taken;
+  if (auto taken = figures_.take(posed_, eye, look_); !taken) return taken;
   gather(scene);
-  eye_W_m_ = camera.eye_W_m();
-  clip_from_world_ =
-      camera.clip_from_world(static_cast<float>(width_px) / static_cast<float>(height_px));
+  eye_ = eye;
   pulse_ = look_.pulse && scene.music ? pulse_of(*scene.music) : BeatPulse{};
   trail_triangles_.clear();
   if (look_.trails) {
     memory.trails.add(scene.time, posed_);
-    memory.trails.append_ribbons(eye_W_m_, trail_triangles_);
+    memory.trails.append_ribbons(eye.eye_W_m, trail_triangles_);
   } else {
     memory.trails.clear();
   }
@@ -107,7 +110,18 @@ void StageRenderer::gather(const SceneState& scene) {
   if (!box.isEmpty()) area_ = {box.center(), 0.5f * box.diagonal().norm() + kSmallestStage_m};
 }
 
+StageArea StageRenderer::floor_area() const {
+  if (!look_.floor) return area_;
+  const FloorLimit& limit = *look_.floor;
+  return {Vector3f(limit.x_m, 0.9f, limit.z_m), radius_of_floor_that_ends_at(limit.ends_m)};
+}
+
 void StageRenderer::paint() {
+  paint_shadows();
+  paint_eye(eye_);
+}
+
+void StageRenderer::paint_shadows() {
   light_.shine_on(area_.centre_W_m, area_.radius_m);
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_BLEND);
@@ -119,27 +133,32 @@ void StageRenderer::paint() {
   light_.begin_map();
   figures_.draw_shadows(light_.light_from_world());
   light_.end_map();
+}
 
+void StageRenderer::paint_eye(const StageEye& eye, const PaintMore& more) {
+  const Eigen::Matrix4f& clip_from_world = eye.clip_from_world;
   target_.bind_light();
   glClear(GL_DEPTH_BUFFER_BIT);
-  draw_backdrop();
+  draw_backdrop(eye);
   if (is_high(quality_))
-    figures_.draw_solid(light_, clip_from_world_, eye_W_m_.cwiseProduct(Vector3f(1, -1, 1)), -1.0f);
-  floor_.draw_floor(light_, clip_from_world_, eye_W_m_, area_, pulse_);
-  floor_.draw_spots(clip_from_world_, spots_);
-  floor_.draw_waiting(clip_from_world_, waiting_);
-  figures_.draw_solid(light_, clip_from_world_, eye_W_m_, 1.0f);
-  figures_.draw_blended(light_, clip_from_world_, eye_W_m_);
-  ribbons_.draw(clip_from_world_, trail_triangles_);
+    figures_.draw_solid(light_, clip_from_world, eye.eye_W_m.cwiseProduct(Vector3f(1, -1, 1)),
+                        -1.0f);
+  floor_.draw_floor(light_, clip_from_world, eye.eye_W_m, floor_area(), pulse_);
+  floor_.draw_spots(clip_from_world, spots_);
+  floor_.draw_waiting(clip_from_world, waiting_);
+  figures_.draw_solid(light_, clip_from_world, eye.eye_W_m, 1.0f);
+  figures_.draw_blended(light_, clip_from_world, eye.eye_W_m);
+  ribbons_.draw(clip_from_world, trail_triangles_);
+  if (more) more(eye);
   target_.resolve_light();
   finish_picture();
   check_gl("StageRenderer::paint");
 }
 
-void StageRenderer::draw_backdrop() {
+void StageRenderer::draw_backdrop(const StageEye& eye) {
   glDisable(GL_DEPTH_TEST);
-  light_.use(backdrop_, eye_W_m_);
-  set_uniform(backdrop_, "u_world_from_clip", Eigen::Matrix4f(clip_from_world_.inverse()));
+  light_.use(backdrop_, eye.eye_W_m);
+  set_uniform(backdrop_, "u_world_from_clip", Eigen::Matrix4f(eye.clip_from_world.inverse()));
   glBindVertexArray(no_vertices_.name());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glEnable(GL_DEPTH_TEST);

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -48,7 +49,14 @@ class StageRenderer {
   // Poses the figures and uploads their joints.
   Result<void> prepare(const SceneState& scene, const OrbitCamera& camera, int width_px,
                        int height_px);
+  Result<void> prepare(const SceneState& scene, const StageEye& eye, int width_px, int height_px);
   void paint();
+  // paint() in parts, for several eyes of one prepare(): shadows once, then each eye's picture,
+  // which leaves target().finished() as draw() does. `more` is called last, to draw into the
+  // stage's light with its depth.
+  void paint_shadows();
+  using PaintMore = std::function<void(const StageEye& eye)>;
+  void paint_eye(const StageEye& eye, const PaintMore& more = {});
 
   // Of the last prepare(), until the next.
   std::span<const PosedFigure> figures() const { return posed_; }
@@ -69,7 +77,8 @@ class StageRenderer {
   StageRenderer(Quality quality, FloorPainter floor, RibbonPainter ribbons);
   Result<void> link_programs();
   void gather(const SceneState& scene);
-  void draw_backdrop();
+  StageArea floor_area() const;
+  void draw_backdrop(const StageEye& eye);
   void finish_picture();
 
   Quality quality_;
@@ -92,8 +101,7 @@ class StageRenderer {
   std::vector<RibbonVertex> trail_triangles_;
   StageArea area_;
   BeatPulse pulse_;
-  Eigen::Vector3f eye_W_m_ = Eigen::Vector3f::Zero();
-  Eigen::Matrix4f clip_from_world_ = Eigen::Matrix4f::Identity();
+  StageEye eye_;
 };
 
 }  // namespace dance
