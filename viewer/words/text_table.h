@@ -9,6 +9,7 @@
 
 #include "viewer/words/check_texts.h"
 #include "viewer/words/dance_texts.h"
+#include "viewer/words/headset_texts.h"
 #include "viewer/words/lobby_texts.h"
 
 // clang-format off
@@ -17,5 +18,6 @@
   ROW(kBack, "Back", "Volver", "Zurück") \
   DANCE_CHECK_TEXTS(ROW) \
   DANCE_PANEL_TEXTS(ROW) \
+  DANCE_HEADSET_TEXTS(ROW) \
   DANCE_LOBBY_TEXTS(ROW)
 // clang-format on
