@@ -1,0 +1,89 @@
+#include "producers/trackers/calibration/usual_posture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/pose/heading.h"
+
+namespace dance {
+namespace {
+
+using Eigen::Quaternionf;
+using Eigen::Vector3f;
+
+constexpr float kLongestPostureStep_s = 0.2f;
+constexpr float kFacing_s = 0.4f, kWalk_s = 0.5f;
+// Straight walks say where a dancer faces; who dances goes backwards as well.
+constexpr float kWalks_m_s = 0.6f;
+constexpr float kForward = 0.8f;
+constexpr float kFootStands_m_s = 0.08f;
+// The eyes' usual height: quickly up, slowly down, so that it stays near the upper end.
+constexpr float kEyesUp_s = 0.6f, kEyesDown_s = 15.0f;
+
+bool is_foot(std::size_t point) {
+  return point == index_of(TrackedPoint::kLeftFoot) || point == index_of(TrackedPoint::kRightFoot);
+}
+
+Vector3f head_on_floor(const TrackerFrame& frame) {
+  const Vector3f& p = frame.position(TrackedPoint::kHead);
+  return {p.x(), 0.0f, p.z()};
+}
+
+}  // namespace
+
+void UsualPosture::follow_facing(const TrackerFrame& frame, float seconds) {
+  const Mount head = nominal_mount(TrackedPoint::kHead, 1.72f);
+  const Quaternionf R_WHead = frame.rotation(TrackedPoint::kHead) * head.R_BT.conjugate();
+  Quaternionf facing = heading_turn(R_WHead);
+  const Vector3f moved = head_on_floor(frame) - head_on_floor(before_);
+  walk_m_s_ += (moved / seconds - walk_m_s_) * (1.0f - std::exp(-seconds / kWalk_s));
+  const Vector3f ahead = facing * Vector3f::UnitZ();
+  const float speed = walk_m_s_.norm();
+  if (speed > kWalks_m_s && ahead.dot(walk_m_s_) > kForward * speed)
+    facing = about_up(std::atan2(walk_m_s_.x(), walk_m_s_.z()));
+  R_WFacing_ = R_WFacing_.slerp(1.0f - std::exp(-seconds / kFacing_s), facing);
+}
+
+void UsualPosture::add(const TrackerFrame& frame) {
+  if (!frame.has(TrackedPoint::kHead)) return;
+  const auto seconds = static_cast<float>((frame.time - before_.time).as_seconds());
+  const TrackerFrame before = before_;
+  if (!began_ || seconds <= 0.0f || seconds > kLongestPostureStep_s) {
+    if (began_ && seconds <= 0.0f) return;
+    before_ = frame;
+    walk_m_s_.setZero();
+    follow_facing(frame, 1.0f);
+    began_ = true;
+    return;
+  }
+  follow_facing(frame, seconds);
+  before_ = frame;
+  const float eyes = frame.position(TrackedPoint::kHead).y();
+  if (eyes_m_ == 0.0f) eyes_m_ = eyes;
+  eyes_m_ +=
+      (eyes - eyes_m_) * (1.0f - std::exp(-seconds / (eyes > eyes_m_ ? kEyesUp_s : kEyesDown_s)));
+  const Vector3f origin = head_on_floor(frame);
+  for (std::size_t i = 0; i < kTrackedPointCount; ++i) {
+    if ((frame.presence & before.presence) >> i % 32 & 1u) {
+      const float speed = (frame.p_WT_m[i] - before.p_WT_m[i]).norm() / seconds;
+      if (is_foot(i) && speed > kFootStands_m_s) continue;
+      const Quaternionf R = R_WFacing_.conjugate() * frame.R_WT[i];
+      const Eigen::Vector4f c = R.coeffs();
+      const float sign = rotation_sums_[i].dot(c) < 0.0f ? -1.0f : 1.0f;
+      rotation_sums_[i] += seconds * sign * c;
+      position_sums_[i] += seconds * (R_WFacing_.conjugate() * (frame.p_WT_m[i] - origin));
+      seen_s_[i] += seconds;
+    }
+  }
+}
+
+Place UsualPosture::usual_place(TrackedPoint point) const {
+  const std::size_t i = index_of(point);
+  Place place;
+  if (seen_s_[i] <= 0.0f || rotation_sums_[i].norm() <= 0.0f) return place;
+  place.p_W_m = position_sums_[i] / seen_s_[i];
+  place.R_W.coeffs() = rotation_sums_[i].normalized();
+  return place;
+}
+
+}  // namespace dance
