@@ -111,6 +111,8 @@ dance_optional(DANCE_VIEWER "Viewer" DANCE_HAVE_VIEWER ${viewer_found}
 
 # Headsets: the loader of OpenXR, which finds the runtime of the headset.
 pkg_check_modules(OPENXR QUIET IMPORTED_TARGET openxr)
+# Their pictures go to the runtime with a window of X11, whose headers libglfw3-dev and libepoxy-dev bring.
+pkg_check_modules(X11 QUIET IMPORTED_TARGET x11)
 dance_optional(DANCE_XR "Headsets" DANCE_HAVE_XR "${OPENXR_FOUND}" "libopenxr-dev")
 
 pkg_check_modules(SNDFILE QUIET IMPORTED_TARGET sndfile)

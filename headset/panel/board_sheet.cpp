@@ -79,7 +79,9 @@ std::string BoardSheet::content_of(const WristPanel& panel, const PanelWords& wo
     content += guest.voice > 0.05f ? '+' : '-';
   }
   if (panel.opacity() <= 0.0f) return content + "|";
-  content += "|" + words.title + "|" + words.trackers + "|" + words.advice;
+  content += "|" + words.title + "|" + std::to_string(words.tracked) + "," +
+             std::to_string(static_cast<int>(words.advice)) + "," +
+             std::to_string(std::lround(20.0f * words.progress));
   content += words.has_voice ? 'v' : '-';
   content += words.is_muted ? 'm' : '-';
   content +=
@@ -137,8 +139,15 @@ void BoardSheet::draw_panel(const WristPanel& panel, const PanelWords& words) {
                  colour, text.c_str());
   };
   line(*large_, 44.0f, 22.0f, kInk, words.title);
-  line(*small_, 32.0f, 84.0f, kSoft, words.trackers);
-  if (!words.advice.empty()) line(*small_, 32.0f, 138.0f, kWarm, words.advice);
+  line(*small_, 32.0f, 84.0f, kSoft,
+       texts_.say(Text::kHeadsetPoints, {std::to_string(words.tracked)}));
+  if (words.advice != PanelWords::Advice::kNone) {
+    const bool waits = words.advice == PanelWords::Advice::kStandInTPose;
+    line(*small_, 32.0f, 134.0f, kWarm,
+         texts_[waits ? Text::kHeadsetTPose : Text::kHeadsetTPoseSoon]);
+    const float right = 30.0f + words.progress * (kPanelWidth_px - 60.0f);
+    list.AddRectFilled({30.0f, 184.0f}, {right, 194.0f}, kWarm, 5.0f);
+  }
   const Text voice = !words.has_voice ? Text::kHeadsetNoVoice
                      : words.is_muted ? Text::kHeadsetUnmute
                                       : Text::kHeadsetMute;

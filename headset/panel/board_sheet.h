@@ -25,9 +25,12 @@ namespace dance {
 
 // What the panel says.
 struct PanelWords {
-  std::string title;     // who dances
-  std::string trackers;  // what is tracked
-  std::string advice;    // what to do; "" for nothing
+  enum class Advice : std::uint8_t { kNone, kTPoseIsBetter, kStandInTPose };
+
+  std::string title;  // who dances
+  int tracked = 0;    // how many points
+  Advice advice = Advice::kNone;
+  float progress = 0.0f;  // of standing still in T-pose
   bool has_voice = false, is_muted = false;
 };
 

@@ -1,0 +1,58 @@
+#include "headset/capture/free_spot.h"
+
+#include <cmath>
+
+#include "core/pose/heading.h"
+
+namespace dance {
+namespace {
+
+constexpr float kTooNear_m = 0.8f;
+constexpr float kFaceToFace_m = 1.1f;
+constexpr int kTries = 4;  // a ring of dancers ends somewhere
+
+float distance_m(const XrSpot& a, const XrSpot& b) {
+  return std::hypot(a.x_m - b.x_m, a.z_m - b.z_m);
+}
+
+}  // namespace
+
+void FreeSpot::hear(const GuestId& guest, const Pose& pose, MonoTime now) {
+  Other* place = nullptr;
+  for (Other& other : others_) {
+    if (other.guest == guest) {
+      place = &other;
+      break;
+    }
+    const bool is_free = !other.guest.is_set() || now - other.heard > kHere;
+    if (place == nullptr && is_free) place = &other;
+  }
+  if (place == nullptr) return;
+  *place = {guest, {pose.p_WH_m.x(), pose.p_WH_m.z(), heading_rad(pose.R_PB[0])}, now};
+}
+
+const FreeSpot::Other* FreeSpot::nearest(const XrSpot& spot, MonoTime now) const {
+  const Other* best = nullptr;
+  for (const Other& other : others_) {
+    if (!other.guest.is_set() || now - other.heard > kHere) continue;
+    if (distance_m(other.spot, spot) > kTooNear_m) continue;
+    if (best == nullptr || distance_m(other.spot, spot) < distance_m(best->spot, spot))
+      best = &other;
+  }
+  return best;
+}
+
+XrSpot FreeSpot::before(const XrSpot& wanted, MonoTime now) const {
+  XrSpot spot = wanted;
+  for (int i = 0; i < kTries; ++i) {
+    const Other* other = nearest(spot, now);
+    if (other == nullptr) break;
+    const float heading = other->spot.heading_rad;
+    spot.x_m = other->spot.x_m + kFaceToFace_m * std::sin(heading);
+    spot.z_m = other->spot.z_m + kFaceToFace_m * std::cos(heading);
+    spot.heading_rad = heading + 3.14159265f;
+  }
+  return spot;
+}
+
+}  // namespace dance
