@@ -76,13 +76,4 @@ class XrFrames {
   std::uint64_t bad_times_ = 0, pictures_ = 0;
 };
 
-// What OpenXR wants to know of the OpenGL context that is current, which must be a window's of X11.
-class XrGraphics {
- public:
-  static Result<std::unique_ptr<XrGraphics>> of_current(const XrRuntime& runtime);
-  virtual ~XrGraphics() = default;
-  // For XrDancerSession::create(); good as long as this.
-  virtual const void* binding() const = 0;
-};
-
 }  // namespace dance

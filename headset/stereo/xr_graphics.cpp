@@ -1,10 +1,7 @@
-// What OpenXR wants to know of an OpenGL context, apart from all else, as X11's headers define
-// words such as None and Bool.
+#include "headset/stereo/xr_graphics.h"
 
 #include <epoxy/gl.h>
 #include <epoxy/glx.h>
-
-#include "headset/stereo/xr_frames.h"
 #define XR_USE_PLATFORM_XLIB
 #define XR_USE_GRAPHICS_API_OPENGL
 #include <openxr/openxr_platform.h>

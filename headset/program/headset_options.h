@@ -1,0 +1,34 @@
+// What `dance headset` is told.
+//
+// Units/frames: metres, degrees, Hz.
+// Ownership:    plain values.
+// Threads:      none inside.
+// Failure:      parse_spot() names what is wrong.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "headset/capture/headset_capture.h"
+
+namespace dance {
+
+struct HeadsetOptions {
+  HeadsetCaptureOptions capture;
+  bool tracking_only = false;
+  bool is_mirrored = true;  // a window on the desk shows it
+  float scale = 1.0f;       // of the pictures, times what the headset recommends
+  float personal_space_m = 0.45f;
+  float floor_m = 8.0f;
+  bool tags = true;
+  bool draws_plainly = false;
+  std::string language;  // "" = the system's
+  std::vector<std::string> avatars;
+  double seconds = 0.0;  // 0 = until told to stop
+};
+
+// "X,Z" or "X,Z,HEADING": metres, and degrees to the left of +Z.
+Result<XrSpot> parse_spot(const std::string& text);
+
+}  // namespace dance
