@@ -19,6 +19,7 @@
 
 #include "testing/scratch_folder.h"
 #include "tests/virtual_display.h"
+#include "tests/xr_loader_leaks.h"
 
 namespace dance {
 namespace {
