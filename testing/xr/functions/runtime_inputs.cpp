@@ -26,8 +26,9 @@ XrResult check_sync(XrCall& call, const XrActionsSyncInfo& info) {
 
 void read_inputs(Session& session, const XrActionsSyncInfo& info) {
   std::map<std::pair<XrAction, XrPath>, InputValue> inputs;
-  for (const auto& [number, action] : runtime().actions) {
-    const auto handle = std::bit_cast<XrAction>(number);
+  for (const auto& entry : runtime().actions) {
+    const auto handle = std::bit_cast<XrAction>(entry.first);
+    const Action* action = entry.second.get();
     const bool is_active = std::any_of(
         info.activeActionSets, info.activeActionSets + info.countActiveActionSets,
         [&](const XrActiveActionSet& active) { return active.actionSet == action->set; });

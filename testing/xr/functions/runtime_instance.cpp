@@ -29,6 +29,7 @@ void start_clock_anew(Runtime& rt, const std::string& key) {
   rt.next_event = 0;
   rt.bad_time.clear();
   rt.failures.clear();
+  rt.origins.assign(1, {0, Pose::Identity()});
   rt.is_focus_wanted = rt.is_visible_wanted = true;
   rt.is_stop_wanted = rt.is_exit_wanted = false;
 }
@@ -83,7 +84,6 @@ void begin_instance(Runtime& rt, const XrInstanceCreateInfo& info) {
   rt.announced.clear();
   rt.located.clear();
   rt.bindings.clear();
-  if (rt.origins.empty()) rt.origins.push_back({0, Pose::Identity()});
 }
 
 XrResult XRAPI_CALL create_instance(const XrInstanceCreateInfo* info, XrInstance* instance) {

@@ -1,14 +1,14 @@
 // XrScript: what the OpenXR test runtime shall show and when it shall misbehave, as a text.
 //
 //   refresh 90                         pictures a second
-//   fov -50 42 45 -48                  left right up down of the left eye, degrees; the right mirrors
+//   fov -50 42 45 -48                  left right up down of the left eye, degrees; mirrored right
 //   size 400 440                       recommended pixels of an eye
-//   pictures 10                        with DANCE_XR_PICTURES: every tenth frame (default: each)
+//   pictures 10                        with DANCE_XR_PICTURES: each tenth frame (default: all)
 //   without XR_EXT_hand_tracking       the runtime has no such extension
 //   system hands off | system body on  what the system's properties say (default: on, off)
 //   body on                            the same as system body on
 //   no stage                           no STAGE space, no bounds
-//   no system [until 2.0]              xrGetSystem: form factor unavailable; seconds since its first call
+//   no system [until 2.0]              xrGetSystem: unavailable; seconds since its first call
 //   profile valve/index_controller     what the hands hold (default oculus/touch_controller)
 //   motion FILE                        CSV: seconds,point,x,y,z,qx,qy,qz,qw; beside the script
 //   at T pose POINT x y z qx qy qz qw  a keyframe; linear and slerp between, held before and after
@@ -22,8 +22,8 @@
 //   at T stop | ready | exit           STOPPING | READY again | STOPPING, then EXITING
 //   at T lose_session | lose_instance  the event at T, the errors 0.1 s later
 //   at T bad_time zero|past|far|garbage   one predictedDisplayTime
-//   at T jump x y z yaw                LOCAL and STAGE get a new origin, given in the old one; degrees
-//   at T fail FUNCTION RESULT          the next call of the function, as XR_ERROR_RUNTIME_FAILURE
+//   at T jump x y z yaw                a new origin of LOCAL and STAGE in the old one; degrees
+//   at T fail FUNCTION RESULT          its next call, as xrEndFrame XR_ERROR_RUNTIME_FAILURE
 //
 // T is in seconds since the first xrBeginSession under this script; what is `at 0` counts from the
 // instance on. The time goes on over later sessions and instances. `#` begins a comment. Points are

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "testing/scratch_folder.h"
+#include "tests/xr_loader_leaks.h"
 
 namespace dance {
 namespace {
