@@ -111,6 +111,9 @@ Result<std::unique_ptr<House>> House::open(const HouseConfig& session, Poller& p
   for (const HostedCamera& camera : session.cameras)
     house->cameras_.push_back(
         std::make_unique<HouseCamera>(camera, house->bus_->url(), *house->port_, poller));
+  for (const HostedHeadset& headset : session.headsets)
+    house->headsets_.push_back(
+        std::make_unique<HouseHeadset>(headset, house->bus_->url(), *house->port_, poller));
   House* self = house.get();
   poller.watch(house->bus_->fd(), [self](MonoTime now) { self->bus_->drain(now); });
   poller.add_timer(mono_now() + kSecond, [self](MonoTime now) {
@@ -120,6 +123,11 @@ Result<std::unique_ptr<House>> House::open(const HouseConfig& session, Poller& p
     return now + kSecond;
   });
   return house;
+}
+
+bool House::has_headset_left() const {
+  return std::any_of(headsets_.begin(), headsets_.end(),
+                     [](const auto& headset) { return headset->has_left(); });
 }
 
 House::~House() {

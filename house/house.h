@@ -18,6 +18,7 @@
 #include "core/net/poller.h"
 #include "core/program/message_throttle.h"
 #include "haptics/haptic_control.h"
+#include "house/headset/house_headset.h"
 #include "house/house_avatars.h"
 #include "house/house_camera.h"
 #include "house/house_haptics.h"
@@ -42,6 +43,8 @@ class House {
   House& operator=(const House&) = delete;
 
   Bus& bus() { return *bus_; }
+  // A dancer with a headset has left by its panel or its own menu.
+  bool has_headset_left() const;
   bool is_connected() const { return link_ && link_->is_connected(); }
   // What the house counted, as one JSON object: per remote guest, link and manager.
   std::string report_json(MonoTime now);
@@ -75,6 +78,7 @@ class House {
   std::unique_ptr<HouseMusic> music_;
   std::unique_ptr<HouseVoice> voice_;
   std::vector<std::unique_ptr<HouseCamera>> cameras_;
+  std::vector<std::unique_ptr<HouseHeadset>> headsets_;
   MessageThrottle troubles_;  // of the link
 };
 

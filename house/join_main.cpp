@@ -28,6 +28,8 @@ constexpr const char* kExamples = R"(Examples:
                                                      bob in full, of the others each fourth pose
   dance join dance.example.org --guest alice --camera auto
                                                      alice dances before the first camera
+  dance join dance.example.org --guest alice --headset
+                                                     alice dances with a headset, on the stage
   dance join dance.example.org --guest alice --avatar me.vrm
                                                      alice is drawn so, at the others' too
   dance join dance.example.org --guest alice --voice
@@ -47,6 +49,7 @@ struct JoinOptions {
   std::vector<std::string> hear;
   std::string bus;
   std::string camera;
+  bool headset = false;
   std::vector<std::string> avatars;
   std::string partner;
   std::string music;
@@ -118,6 +121,20 @@ Result<void> put_before_camera(HouseConfig& session, const std::vector<GuestId>&
   return {};
 }
 
+// The first guest dances with a headset, which is the house's window too.
+Result<void> put_into_headset(HouseConfig& session) {
+  if (session.guests.empty()) return fail("--headset: who dances? name the guest with --guest");
+  const GuestId guest = session.guests.front();
+  const auto is_of = [&](const auto& it) { return it.guest == guest; };
+  std::erase_if(session.producers, is_of);
+  std::erase_if(session.cameras, is_of);
+  std::erase_if(session.receivers, [&](const auto& it) { return it.options.guest == guest; });
+  if (std::none_of(session.headsets.begin(), session.headsets.end(), is_of))
+    session.headsets.emplace_back().guest = guest;
+  session.view = false;
+  return {};
+}
+
 Result<HouseConfig> session_of(const JoinOptions& options) {
   HouseConfig session;
   if (is_session_file(options.host_or_session)) {
@@ -149,6 +166,8 @@ Result<HouseConfig> session_of(const JoinOptions& options) {
   if (!options.camera.empty())
     if (auto put = put_before_camera(session, guests, options.camera); !put)
       return tl::make_unexpected(put.error());
+  if (options.headset)
+    if (auto put = put_into_headset(session); !put) return tl::make_unexpected(put.error());
   for (const std::string& text : options.avatars) {
     AvatarOfGuest wish = parse_avatar_of_guest(text);
     if (!wish.guest.is_set() && session.guests.empty())
@@ -214,6 +233,12 @@ Result<void> run_join(JoinOptions options) {
       return MonoTime();
     });
   }
+  // As when a window is closed.
+  poller->add_timer(mono_now() + Duration::ms(200), [&](MonoTime now) {
+    if (!house->has_headset_left()) return now + Duration::ms(200);
+    poller->stop();
+    return MonoTime();
+  });
   talk::info("the house is open on {}; Ctrl-C ends it", house->bus().url());
   poller->run();
   if (options.json) std::printf("%s\n", house->report_json(mono_now()).c_str());
@@ -248,6 +273,9 @@ int main(int argc, char** argv) {
            "a number or a "
            "video; instead of what "
            "the session file says");
+  line.add_flag("--headset", options.headset,
+                "the first guest dances with a headset and sees the stage in it, as dance headset "
+                "does; instead of the viewer");
   line.add(
       "--avatar", options.avatars,
       "how the first guest is drawn, instead of what the session file says: a file (.vrm, .glb), a "

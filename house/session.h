@@ -20,6 +20,7 @@
 #include "core/signal/style.h"
 #include "haptics/haptic_table.h"
 #include "house/avatar_choice.h"
+#include "house/headset/hosted_headset.h"
 #include "house/session_window.h"
 #include "house/voice/hosted_voice.h"
 #include "manager/route.h"
@@ -135,6 +136,7 @@ struct HouseConfig {
   std::vector<HostedProducer> producers;
   std::vector<HostedReceiver> receivers;
   std::vector<HostedCamera> cameras;
+  std::vector<HostedHeadset> headsets;
   std::vector<HostedConsumer> consumers;
   std::vector<HostedHaptics> haptics;
   std::vector<HostedAvatar> avatars;

@@ -25,6 +25,7 @@ std::vector<GuestId> dancers_of(const HouseConfig& session) {
   };
   for (const HostedProducer& producer : session.producers) add(producer.guest);
   for (const HostedReceiver& receiver : session.receivers) add(receiver.options.guest);
+  for (const HostedHeadset& headset : session.headsets) add(headset.guest);
   for (const HostedCamera& camera : session.cameras) {
     add(camera.guest);
     for (const HostedCamera::Partner& partner : camera.partners) add(partner.guest);

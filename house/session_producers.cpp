@@ -81,6 +81,7 @@ void read_producer(TomlReader& reader, const std::filesystem::path& folder, Hous
   HostedProducer producer;
   const std::string kind = reader.required_string("kind");
   if (kind == "camera") return read_camera(reader, folder, session);
+  if (kind == "headset") return session.headsets.push_back(read_headset(reader));
   if (find_receiver_kind(kind)) return read_receiver(reader, kind, session);
   producer.guest = read_guest(reader, "guest", reader.required_string("guest"));
   producer.rate_hz = reader.number_or("rate", 60.0, 1.0, 1000.0);
@@ -97,8 +98,8 @@ void read_producer(TomlReader& reader, const std::filesystem::path& folder, Hous
     producer.dancer = reader.string_or("dancer", "");
     producer.speed = reader.number_or("speed", 1.0, 0.05, 20.0);
   } else {
-    reader.complain("kind",
-                    fmt::format("is camera, salsa, replay, {}", fmt::join(receiver_names(), ", ")));
+    reader.complain("kind", fmt::format("is camera, headset, salsa, replay, {}",
+                                        fmt::join(receiver_names(), ", ")));
   }
   reader.finish();
   session.producers.push_back(producer);

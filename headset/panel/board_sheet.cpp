@@ -26,7 +26,7 @@ constexpr float kTagHeight_m = 0.055f;
 constexpr float kTagNear_m = 1.2f, kTagGrows_m = 8.0f;
 constexpr float kOverHead_m = 0.05f;
 
-constexpr ImU32 kBack = IM_COL32(16, 18, 26, 235), kInk = IM_COL32(240, 240, 245, 255);
+constexpr ImU32 kBack = IM_COL32(16, 18, 26, 250), kInk = IM_COL32(240, 240, 245, 255);
 constexpr ImU32 kSoft = IM_COL32(170, 175, 190, 255), kWarm = IM_COL32(255, 196, 120, 255);
 constexpr ImU32 kButton = IM_COL32(48, 54, 74, 255), kHover = IM_COL32(84, 98, 140, 255);
 constexpr ImU32 kOn = IM_COL32(150, 60, 60, 255), kDot = IM_COL32(255, 255, 255, 255);
@@ -146,7 +146,7 @@ void BoardSheet::draw_panel(const WristPanel& panel, const PanelWords& words) {
     line(*small_, 32.0f, 134.0f, kWarm,
          texts_[waits ? Text::kHeadsetTPose : Text::kHeadsetTPoseSoon]);
     const float right = 30.0f + words.progress * (kPanelWidth_px - 60.0f);
-    list.AddRectFilled({30.0f, 184.0f}, {right, 194.0f}, kWarm, 5.0f);
+    if (waits) list.AddRectFilled({30.0f, 184.0f}, {right, 194.0f}, kWarm, 5.0f);
   }
   const Text voice = !words.has_voice ? Text::kHeadsetNoVoice
                      : words.is_muted ? Text::kHeadsetUnmute

@@ -55,6 +55,7 @@ MonoTime HostedProgram::look(MonoTime now) {
   program_.reset();
   if (exit_code == kDied) return start_after_death(end, now);
   if (exit_code != 0 && exit_code != kWrongUse) return try_later(end, now);
+  has_finished_ = exit_code == 0;
   talk::warn("{}; the house goes on {}", end, options_.without);
   return {};
 }

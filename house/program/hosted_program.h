@@ -43,6 +43,9 @@ class HostedProgram {
   HostedProgram(const HostedProgram&) = delete;
   HostedProgram& operator=(const HostedProgram&) = delete;
 
+  // It has ended without an error, and is not started again.
+  bool has_finished() const { return has_finished_; }
+
  private:
   MonoTime start(MonoTime now);
   MonoTime look(MonoTime now);
@@ -57,7 +60,7 @@ class HostedProgram {
   std::unique_ptr<ChildProcess> program_;
   MonoTime started_;
   Duration pause_;  // before the start after the newest death
-  bool works_ = false;
+  bool works_ = false, has_finished_ = false;
   std::string trouble_;  // that was said; "" once it has worked
   Poller::TimerId timer_ = 0;
 };
