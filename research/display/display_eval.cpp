@@ -32,7 +32,33 @@ double lowest_mm(const BodyFrames& frames) {
                     frames.tip(Tip::kLeftToes).y(), frames.tip(Tip::kRightToes).y()}));
 }
 
+double turn_deg(const BodyFrames& a, const BodyFrames& b, Bone bone) {
+  constexpr double kDegrees = 57.29577951308232;
+  return kDegrees *
+         static_cast<double>(a.R_WB[index_of(bone)].angularDistance(b.R_WB[index_of(bone)]));
+}
+
+double off_mm(const BodyFrames& a, const BodyFrames& b, Bone bone) {
+  return 1e3 * static_cast<double>((a.position(bone) - b.position(bone)).norm());
+}
+
+// Sums, until the number of moments is known.
+void add_part(const BodyFrames& held, const BodyFrames& ours, const BodyFrames& danced, Bone bone,
+              double share, PartErrors& errors) {
+  errors.held_mean_mm += share * off_mm(held, danced, bone);
+  errors.ours_mean_mm += share * off_mm(ours, danced, bone);
+  errors.held_mean_deg += share * turn_deg(held, danced, bone);
+  errors.ours_mean_deg += share * turn_deg(ours, danced, bone);
+}
+
+void divide(PartErrors& errors, double moments) {
+  for (double* sum :
+       {&errors.held_mean_mm, &errors.ours_mean_mm, &errors.held_mean_deg, &errors.ours_mean_deg})
+    *sum /= moments;
+}
+
 struct Samples {
+  PartErrors head, hands;
   std::vector<double> held_mm, ours_mm;
   double below_floor_mm = 0.0;
 };
@@ -81,6 +107,9 @@ DisplayEval evaluate_display(const std::vector<DisplayTake>& takes,
         forward_kinematics(skeleton, shown, ours);
         samples[h].held_mm.push_back(error_mm(held, danced));
         samples[h].ours_mm.push_back(error_mm(ours, danced));
+        add_part(held, ours, danced, Bone::kHead, 1.0, samples[h].head);
+        for (const Bone hand : {Bone::kLeftHand, Bone::kRightHand})
+          add_part(held, ours, danced, hand, 0.5, samples[h].hands);
         const double floor_mm = std::min(0.0, lowest_mm(held));
         samples[h].below_floor_mm = std::max(samples[h].below_floor_mm, floor_mm - lowest_mm(ours));
       }
@@ -91,6 +120,11 @@ DisplayEval evaluate_display(const std::vector<DisplayTake>& takes,
     summarize(it.held_mm, errors.held_mean_mm, errors.held_p95_mm);
     summarize(it.ours_mm, errors.ours_mean_mm, errors.ours_p95_mm);
     errors.below_floor_mm = it.below_floor_mm;
+    errors.head = it.head;
+    errors.hands = it.hands;
+    const double moments = std::max<double>(1.0, static_cast<double>(eval.moments));
+    divide(errors.head, moments);
+    divide(errors.hands, moments);
   }
   if (told > 0) eval.ns_per_pose = static_cast<double>(spent.count()) / static_cast<double>(told);
   return eval;

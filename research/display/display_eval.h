@@ -20,11 +20,18 @@ struct DisplayEvalOptions {
   double noise_deg = 0.0;
 };
 
+// Of one part of the body, where it is and how it is turned.
+struct PartErrors {
+  double held_mean_mm = 0.0, ours_mean_mm = 0.0;
+  double held_mean_deg = 0.0, ours_mean_deg = 0.0;
+};
+
 struct DisplayErrors {
   double held_mean_mm = 0.0;
   double held_p95_mm = 0.0;
   double ours_mean_mm = 0.0;
   double ours_p95_mm = 0.0;
+  PartErrors head, hands;       // what a headset shows of its own dancer and of a partner
   double below_floor_mm = 0.0;  // the most that a foot is lower than the floor and than it was
 };
 

@@ -33,6 +33,22 @@ std::string display_eval_table(const DisplayEval& eval, const DisplayEvalOptions
   out += row("shown as it came, 95th percentile, mm",
              by_horizon(eval, [](const auto& e) { return e.held_p95_mm; }), 2);
   out += row("extrapolated", by_horizon(eval, [](const auto& e) { return e.ours_p95_mm; }), 2);
+  struct Part {
+    const char* name;
+    PartErrors DisplayErrors::*errors;
+  };
+  for (const Part& part :
+       {Part{"head", &DisplayErrors::head}, Part{"hands", &DisplayErrors::hands}}) {
+    const auto of = [&](double PartErrors::*value) {
+      return by_horizon(eval, [&](const auto& e) { return (e.*(part.errors)).*value; });
+    };
+    out +=
+        row(fmt::format("{}, as it came, mm", part.name).c_str(), of(&PartErrors::held_mean_mm), 2);
+    out += row("extrapolated", of(&PartErrors::ours_mean_mm), 2);
+    out += row(fmt::format("{}, as it came, degrees", part.name).c_str(),
+               of(&PartErrors::held_mean_deg), 2);
+    out += row("extrapolated", of(&PartErrors::ours_mean_deg), 2);
+  }
   out += row("feet below the floor by at most, mm",
              by_horizon(eval, [](const auto& e) { return e.below_floor_mm; }), 2);
   return out + fmt::format("\n  {:.1f} us a pose\n", 1e-3 * eval.ns_per_pose);
@@ -49,6 +65,16 @@ std::string display_eval_json(const DisplayEval& eval, const DisplayEvalOptions&
   json["extrapolated_mm"] = {
       {"mean", by_horizon(eval, [](const auto& e) { return e.ours_mean_mm; })},
       {"p95", by_horizon(eval, [](const auto& e) { return e.ours_p95_mm; })}};
+  for (const auto& [name, part] :
+       {std::pair{"head", &DisplayErrors::head}, std::pair{"hands", &DisplayErrors::hands}}) {
+    const auto of = [&, part = part](double PartErrors::*value) {
+      return by_horizon(eval, [&](const auto& e) { return (e.*part).*value; });
+    };
+    json[name] = {{"held_mm", of(&PartErrors::held_mean_mm)},
+                  {"extrapolated_mm", of(&PartErrors::ours_mean_mm)},
+                  {"held_deg", of(&PartErrors::held_mean_deg)},
+                  {"extrapolated_deg", of(&PartErrors::ours_mean_deg)}};
+  }
   json["below_floor_mm"] = by_horizon(eval, [](const auto& e) { return e.below_floor_mm; });
   json["ns_per_pose"] = rounded(eval.ns_per_pose, 1.0);
   return json.dump() + "\n";
