@@ -127,7 +127,8 @@ void HeadsetCapture::publish(MonoTime captured) {
   received_->set_skeleton(dancer_.skeleton());
   pose_.presence = kAllBones;
   pose_.confidence = 1.0f;
-  if (!received_->capture(pose_, captured, captured)) return;
+  // A body that was seen before is of then, and is published once.
+  if (!received_->capture(pose_, pose_.capture_time, captured)) return;
   delay_.add(mono_now() - captured);
   ++poses_;
   if (sight_.hands.presence != 0) received_->capture(sight_.hands);

@@ -34,6 +34,7 @@ void HeadsetScene::set_body(const CalibrationValues& values) {
 
 void HeadsetScene::begin_session() {
   dancer_ = XrDancer(body_options_);
+  own_motion_.clear();
   if (values_) dancer_.body().restore(*values_);
 }
 
@@ -62,8 +63,13 @@ void HeadsetScene::put_own(const XrSight& sight) {
     own = scene_.guests.insert(scene_.guests.end(), guest);
   }
   pose.confidence = 1.0f;
-  own->pose = pose;
   own->skeleton = dancer_.skeleton();
+  // What the solver makes of points is of the moment asked for already.
+  if (sight.has_figure) {
+    own_motion_.observe(pose, pose.capture_time);
+    pose = own_motion_.at(sight.points.time, own->skeleton);
+  }
+  own->pose = pose;
   own->opacity = 1.0f;
   if (sight.hands.presence != 0) own->hands = sight.hands;
 }

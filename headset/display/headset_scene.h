@@ -36,6 +36,7 @@ class HeadsetScene {
   TrackerBody::Options body_options_;
   std::optional<CalibrationValues> values_;
   XrDancer dancer_;
+  ShortExtrapolator own_motion_;  // of a body that the headset sees some moments late
   AvatarLibrary avatars_;
   StageRoster roster_;
   PhotonPredictor predictor_;

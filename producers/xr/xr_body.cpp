@@ -130,10 +130,11 @@ Result<void> XrBody::open_bd() {
   return checked(create(session_.handle(), &info, &bd_), "to see a body");
 }
 
-bool XrBody::see(XrTime time, FigureFrame& figure) {
+bool XrBody::see(XrTime time, FigureFrame& figure, XrTime& seen) {
   figure = FigureFrame();
+  seen = time;
   if (time <= 0) return false;
-  return fb_ != XR_NULL_HANDLE ? see_fb(time, figure) : see_bd(time, figure);
+  return fb_ != XR_NULL_HANDLE ? see_fb(time, figure, seen) : see_bd(time, figure);
 }
 
 bool XrBody::learn_axes() {
@@ -157,7 +158,7 @@ bool XrBody::learn_axes() {
   return true;
 }
 
-bool XrBody::see_fb(XrTime time, FigureFrame& figure) {
+bool XrBody::see_fb(XrTime time, FigureFrame& figure, XrTime& seen) {
   XrBodyJointsLocateInfoFB info{};
   info.type = XR_TYPE_BODY_JOINTS_LOCATE_INFO_FB;
   info.baseSpace = session_.base();
@@ -167,6 +168,7 @@ bool XrBody::see_fb(XrTime time, FigureFrame& figure) {
   locations.jointCount = static_cast<std::uint32_t>(located_.size());
   locations.jointLocations = located_.data();
   if (XR_FAILED(locate_fb_(fb_, &info, &locations)) || locations.isActive != XR_TRUE) return false;
+  if (locations.time > 0) seen = locations.time;
   if (!has_axes_ || locations.skeletonChangedCount != skeleton_change_) {
     has_axes_ = learn_axes();
     skeleton_change_ = locations.skeletonChangedCount;

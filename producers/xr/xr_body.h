@@ -27,7 +27,9 @@ class XrBody {
   XrBody(const XrBody&) = delete;
   XrBody& operator=(const XrBody&) = delete;
 
-  bool see(XrTime time, FigureFrame& figure);
+  // What the headset knows at `time`; `seen` is of when that is: bodies come from cameras, and many
+  // runtimes tell their last picture's.
+  bool see(XrTime time, FigureFrame& figure, XrTime& seen);
   // Without them hips, chest and elbows are points for the solver.
   bool has_legs() const { return has_legs_; }
 
@@ -35,7 +37,7 @@ class XrBody {
   explicit XrBody(const XrDancerSession& session) : session_(session) {}
   Result<void> open_fb();
   Result<void> open_bd();
-  bool see_fb(XrTime time, FigureFrame& figure);
+  bool see_fb(XrTime time, FigureFrame& figure, XrTime& seen);
   bool see_bd(XrTime time, FigureFrame& figure);
   bool learn_axes();
 

@@ -4,7 +4,7 @@ namespace dance {
 
 bool XrDancer::solve(const XrSight& sight, Pose& pose) {
   if (sight.has_figure && figure_.fit(sight.figure, pose)) {
-    pose.capture_time = sight.points.time;
+    pose.capture_time = sight.figure_moment;
     is_figure_ = true;
     return true;
   }

@@ -9,6 +9,8 @@ using Eigen::Vector3f;
 
 namespace {
 
+constexpr Duration kOldestBody = Duration::ms(300);
+
 // Points that a body without legs stands for.
 struct PointOfBone {
   TrackedPoint point;
@@ -41,7 +43,8 @@ XrPlacement placement_of(const XrPlace& head_in_base, const XrSpot& spot, float 
   return placement;
 }
 
-XrSensors::XrSensors(const XrDancerSession& session, const XrInput& input) : input_(input) {
+XrSensors::XrSensors(const XrDancerSession& session, const XrInput& input)
+    : session_(session), input_(input) {
   if (session.runtime().sees_hands()) {
     auto made = XrHands::create(session);
     if (made)
@@ -92,8 +95,17 @@ void XrSensors::look_at_hands(XrTime time, const XrPlacement& placement, XrSight
   }
 }
 
+// A runtime's word, where it can be true.
+MonoTime XrSensors::moment_of(XrTime seen, MonoTime asked) const {
+  const MonoTime moment = session_.runtime().mono_of(seen);
+  const bool can_be = moment.is_set() && asked - moment < kOldestBody && moment <= asked;
+  return can_be ? moment : asked;
+}
+
 void XrSensors::look_at_body(XrTime time, const XrPlacement& placement, XrSight& sight) {
-  if (!body_ || !body_->see(time, sight.figure)) return;
+  XrTime seen = time;
+  if (!body_ || !body_->see(time, sight.figure, seen)) return;
+  sight.figure_moment = moment_of(seen, sight.points.time);
   for (std::size_t i = 0; i < kBoneCount; ++i) {
     const XrPlace place = placement.in_house(XrPlace{sight.figure.p_WB_m[i], sight.figure.R_WB[i]});
     sight.figure.p_WB_m[i] = place.p_m;

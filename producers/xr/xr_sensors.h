@@ -38,6 +38,7 @@ struct XrSight {
   TrackerFrame points;
   FigureFrame figure;
   bool has_figure = false;               // a whole one, legs too
+  MonoTime figure_moment;                // when it was so; the points are of the moment asked for
   Hands hands;                           // none: no presence
   std::array<bool, kXrHands> is_bare{};  // the hand is seen, no controller is held
   std::array<bool, kXrHands> is_pinching{};
@@ -57,7 +58,9 @@ class XrSensors {
  private:
   void look_at_hands(XrTime time, const XrPlacement& placement, XrSight& sight);
   void look_at_body(XrTime time, const XrPlacement& placement, XrSight& sight);
+  MonoTime moment_of(XrTime seen, MonoTime asked) const;
 
+  const XrDancerSession& session_;
   const XrInput& input_;
   std::unique_ptr<XrHands> hands_;
   std::unique_ptr<XrBody> body_;
