@@ -4,6 +4,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -28,6 +29,12 @@ constexpr std::int64_t kPosesPerSecond = 60;
 double cpu_ms() {
   timespec t{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+}
+// Of this thread alone, which on a software renderer still shades the vertices.
+double thread_ms() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
   return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
 }
 double ms_since(MonoTime begun) { return 1e3 * (mono_now() - begun).as_seconds(); }
@@ -89,24 +96,42 @@ struct Lane {
   Lane(const char* name, const Crowd& dancers) : crowd(dancers) { row.name = name; }
   BenchViewRow row;
   Crowd crowd;
+  bool is_stereo = false;
 };
+
+// Where the camera is, side by side, as wide open as headsets are.
+std::array<StageEye, 2> both_eyes(const OrbitCamera& camera, int height_px) {
+  constexpr float kApart = 0.032f;
+  constexpr EyeTangents kLeft{-1.2f, 0.9f, 1.0f, -1.1f}, kRight{-0.9f, 1.2f, 1.0f, -1.1f};
+  const Vector3f right = camera.axes_W().col(0);
+  return {eye_at(camera.eye_W_m() - kApart * right, camera.axes_W(), kLeft, height_px),
+          eye_at(camera.eye_W_m() + kApart * right, camera.axes_W(), kRight, height_px)};
+}
 
 Result<void> draw(Lane& lane, StageRenderer& renderer, const OrbitCamera& camera,
                   const BenchViewOptions& options, double s, bool counts) {
   const SceneState& scene = lane.crowd.at(s);
   glFinish();
   const double cpu_begun = cpu_ms();
+  const double thread_begun = thread_ms();
   const MonoTime begun = mono_now();
   if (auto prepared = renderer.prepare(scene, camera, options.width_px, options.height_px);
       !prepared)
     return prepared;
   const double prepared_ms = ms_since(begun);
-  renderer.paint();
+  if (lane.is_stereo) {
+    renderer.paint_shadows();
+    for (const StageEye& eye : both_eyes(camera, options.height_px)) renderer.paint_eye(eye);
+  } else {
+    renderer.paint();
+  }
+  const double submitted_ms = thread_ms() - thread_begun;
   glFinish();
   if (!counts) return {};
   lane.row.frame_ms.push_back(ms_since(begun));
   lane.row.cpu_ms.push_back(cpu_ms() - cpu_begun);
   lane.row.retarget_upload_ms.push_back(prepared_ms);
+  lane.row.submit_ms.push_back(submitted_ms);
   lane.row.triangles = renderer.drawn().triangles;
   lane.row.draw_calls = renderer.drawn().calls;
   return {};
@@ -119,10 +144,17 @@ Result<std::vector<Lane>> lanes_of(const BenchViewOptions& options) {
   lanes.back().crowd.leave();
   lanes.emplace_back("mannequins", crowd);
   lanes.back().crowd.wear_mannequins();
-  if (options.avatar.empty()) return lanes;
-  DANCE_TRY(const auto avatar, read_bench_avatar(options.avatar));
-  lanes.emplace_back("avatars", crowd);
-  lanes.back().crowd.wear(avatar);
+  if (!options.avatar.empty()) {
+    DANCE_TRY(const auto avatar, read_bench_avatar(options.avatar));
+    lanes.emplace_back("avatars", crowd);
+    lanes.back().crowd.wear(avatar);
+  }
+  const std::size_t rows = options.stereo ? lanes.size() : 0;
+  for (std::size_t i = 0; i < rows; ++i) {
+    lanes.push_back(lanes[i]);
+    lanes.back().row.name += "_stereo";
+    lanes.back().is_stereo = true;
+  }
   return lanes;
 }
 
@@ -157,7 +189,8 @@ Result<BenchViewResult> run_bench_view(const BenchViewOptions& options) {
   BenchViewResult result;
   result.renderer = renderer_name();
   for (Lane& lane : lanes) {
-    for (auto* samples : {&lane.row.frame_ms, &lane.row.cpu_ms, &lane.row.retarget_upload_ms})
+    for (auto* samples :
+         {&lane.row.frame_ms, &lane.row.cpu_ms, &lane.row.retarget_upload_ms, &lane.row.submit_ms})
       std::sort(samples->begin(), samples->end());
     result.rows.push_back(std::move(lane.row));
   }

@@ -23,6 +23,7 @@ struct BenchViewOptions {
   int height_px = 720;
   Quality quality = Quality::kHigh;
   double seconds = 10.0;
+  bool stereo = false;  // each row also for the two eyes of a headset, of that size each
   std::string picture;  // a PNG file of the last picture of the last row; "": none
 };
 
@@ -30,9 +31,10 @@ struct BenchViewOptions {
 struct BenchViewRow {
   std::string name;
   std::vector<double> retarget_upload_ms;  // posing the figures and handing them to the card
-  std::vector<double> frame_ms;            // until the card has finished
-  std::vector<double> cpu_ms;              // of all threads, the driver's among them
-  std::size_t triangles = 0;               // of the last picture
+  std::vector<double> submit_ms;  // with the calls to the driver, in the drawing thread alone
+  std::vector<double> frame_ms;   // until the card has finished
+  std::vector<double> cpu_ms;     // of all threads, the driver's among them
+  std::size_t triangles = 0;      // of the last picture
   std::size_t draw_calls = 0;
 };
 

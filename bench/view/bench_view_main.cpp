@@ -12,6 +12,7 @@ namespace {
 constexpr const char* kExamples = R"(Examples:
   dance bench view                                       30 mannequins beside the empty stage
   dance bench view --avatar dancer.vrm --json            and 30 times that avatar
+  dance bench view --stereo --size 1440x1600             and for both eyes of a headset
   dance bench view --size 640x360 --quality low          as on a computer without a graphics card
 Pictures of all rows are drawn in turn; each counts until the card has finished it.
 )";
@@ -51,6 +52,8 @@ int main(int argc, char** argv) {
   line.add_choice<dance::Quality>("--quality", bench.quality,
                                   {{"low", dance::Quality::kLow}, {"high", dance::Quality::kHigh}},
                                   "low or high");
+  line.add_flag("--stereo", bench.stereo,
+                "a row more for each, of both eyes of a headset, each of that size");
   line.add("--seconds", bench.seconds, "how long to measure").range(0.1, 3600.0).shows_default();
   line.add("--picture", bench.picture, "also writes the last picture, as this PNG file");
   line.add_flag("--json", wishes.is_json, "one JSON object instead of the table");
