@@ -28,6 +28,7 @@ void find_parts(LobbyModel& model) {
   model.has_camera = has_program("dance-capture");
   model.has_music = has_program("dance-music");
   model.has_voice = has_program("dance-voice");
+  model.has_headset = has_program("dance-headset");
   model.has_server = has_program("dance-server");
   model.avatars = shipped_avatars(data_folder() + "/avatars");
 }

@@ -123,6 +123,7 @@ struct LobbyModel {
   bool has_camera = true;     // built with cameras
   bool has_music = true;
   bool has_voice = true;
+  bool has_headset = true;  // built with what headsets need
   bool has_server = true;
   bool knows_cameras = false;  // they have been looked for
   std::vector<CameraFact> cameras;

@@ -97,12 +97,14 @@ void draw_source(LobbyModel& model, LobbyKit& kit) {
     Text text;
   };
   constexpr std::array kPlaces{
-      Place{kCamera, Text::kLobbyFromCamera}, Place{kFile, Text::kLobbyFromFile},
-      Place{kSynthetic, Text::kLobbyFromNobody}, Place{kElsewhere, Text::kLobbyFromElsewhere}};
+      Place{kCamera, Text::kLobbyFromCamera}, Place{kHeadset, Text::kLobbyFromHeadset},
+      Place{kFile, Text::kLobbyFromFile}, Place{kSynthetic, Text::kLobbyFromNobody},
+      Place{kElsewhere, Text::kLobbyFromElsewhere}};
   bool is_first = true;
   for (const Place& place : kPlaces) {
     if (place.source == kElsewhere && source != kElsewhere) continue;
     if (place.source == kCamera && !model.has_camera && source != kCamera) continue;
+    if (place.source == kHeadset && !model.has_headset && source != kHeadset) continue;
     if (!is_first) kit.beside(t[place.text]);
     is_first = false;
     if (!kit.choice(t[place.text], source == place.source)) continue;
@@ -114,6 +116,8 @@ void draw_source(LobbyModel& model, LobbyKit& kit) {
   }
   kit.gap(4.0f);
   if (source == kCamera) draw_camera(model, kit);
+  if (source == kHeadset)
+    kit.text(t[model.has_headset ? Text::kLobbyHeadsetHow : Text::kLobbyNoHeadsetBuilt]);
   if (source == kFile) draw_motion_file(model, kit);
   if (source == kSynthetic) {
     if (kit.choice(t[Text::kLobbyLeads], model.settings.leads)) model.settings.leads = true;

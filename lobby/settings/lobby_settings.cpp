@@ -132,6 +132,9 @@ Values produce_values(const LobbySettings& wanted) {
       if (wanted.height_m > 0.0) values.emplace_back("height", plain_number(wanted.height_m));
       return values;
     }
+    case DancerSource::kHeadset:
+      // The window of the house shows the stage; a second one is not wanted.
+      return {{"kind", "\"headset\""}, {"window", "false"}};
     case DancerSource::kFile:
       return {{"kind", "\"replay\""}, {"file", toml_text(wanted.motion_file)}};
     case DancerSource::kSynthetic:
@@ -153,7 +156,7 @@ Result<void> edit_source(SessionText& text, const LobbySettings& now, const Lobb
     return {};
   }
   // Of the same kind: what else stands there stays.
-  if (!place) return {};
+  if (!place || wanted.source == DancerSource::kHeadset) return {};
   if (wanted.source == DancerSource::kCamera) {
     LOBBY_TRY(text.set_text(*place, "device", wanted.camera));
     return wanted.height_m > 0.0 ? text.set(*place, "height", plain_number(wanted.height_m))
@@ -264,6 +267,8 @@ LobbySettings settings_of(const HouseConfig& house) {
     settings.source = DancerSource::kCamera;
     settings.camera = camera->device;
     settings.height_m = camera->height_m;
+  } else if (of_guest(house.headsets, guest) != nullptr) {
+    settings.source = DancerSource::kHeadset;
   } else if (const HostedProducer* producer = of_guest(house.producers, guest)) {
     const bool is_file = producer->kind == HostedProducer::Kind::kReplay;
     settings.source = is_file ? DancerSource::kFile : DancerSource::kSynthetic;

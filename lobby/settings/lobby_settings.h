@@ -20,6 +20,7 @@ namespace dance {
 // Who dances in this house: the [[produce]] of the first guest.
 enum class DancerSource {
   kCamera,
+  kHeadset,
   kFile,       // a recorded dance stands in
   kSynthetic,  // a made one does
   kElsewhere,  // another program or a device, or nobody: as the file says

@@ -152,7 +152,7 @@ LobbySettings any_settings(Dice& dice) {
   using S = std::string;
   LobbySettings it;
   it.name = dice.one_of<S>({"alice", "ann-2", "b"});
-  it.source = dice.one_of({kCamera, kFile, kSynthetic});
+  it.source = dice.one_of({kCamera, kFile, kHeadset, kSynthetic});
   it.camera = dice.one_of<S>({"", "/dev/video0", "HD Webcam"});
   it.height_m = dice.one_of({0.0, 0.8, 1.64, 2.5});
   it.motion_file = dice.one_of<S>({"/a/take.bvh", "/ü/night \"x\".lcm"});

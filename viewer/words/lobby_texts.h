@@ -56,6 +56,15 @@
   ROW(kLobbyWhoDances, "Who dances for you?", "¿Quién baila por ti?", "Wer tanzt für dich?") \
   ROW(kLobbyFromCamera, "You, before a camera", "Tú, ante una cámara", "Du, vor einer Kamera") \
   ROW(kLobbyFromFile, "A recorded dance", "Un baile grabado", "Ein aufgenommener Tanz") \
+  ROW(kLobbyFromHeadset, "You, with a headset", "Tú, con un visor", "Du, mit Headset") \
+  ROW(kLobbyHeadsetHow, \
+      "Join, then put it on. In it, look at the back of your left wrist for the panel.", \
+      "Entra y póntelo. Dentro, mira el dorso de tu muñeca izquierda para ver el panel.", \
+      "Tritt bei und setz es auf. Darin zeigt ein Blick aufs linke Handgelenk die Tafel.") \
+  ROW(kLobbyNoHeadsetBuilt, \
+      "This build knows no headsets.", \
+      "Esta versión no conoce visores.", \
+      "Diese Fassung kennt keine Headsets.") \
   ROW(kLobbyFromNobody, "A made-up dancer", "Un bailarín inventado", "Eine erfundene Figur") \
   ROW(kLobbyFromElsewhere, "As written in the file", "Como dice el archivo", "Wie in der Datei") \
   ROW(kLobbyLeads, "leads", "guía", "führt") \
