@@ -41,6 +41,7 @@ constexpr std::array kCommands{
     Command{"manager", "the signal manager of a house"},
     Command{"listen", "passes dancers on: text, files, engines, avatar apps"},
     Command{"receive", "a dancer from another program or a device"},
+    Command{"headset", "dances with a headset, and shows the stage in it"},
     Command{"haptics", "what a dancer feels: touches, the beat, the lead's hand, on devices"},
     Command{"record", "records the bus to an LCM log, packed or plain"},
     Command{"pack", "makes an LCM log smaller, and loses nothing"},
@@ -96,6 +97,7 @@ constexpr std::array kCommands{
     Command{"bench view", "what a picture of a full stage costs, beside the empty one"},
     Command{"bench display", "capture to swap: poses taken late, or at frame start"},
     Command{"bench replay", "opening and jumping in a long recorded night"},
+    Command{"bench headset", "from a headset's sensors to the link"},
     Command{"bench parts", "what each part of the pose path costs, against a baseline"},
 };
 

@@ -67,9 +67,11 @@ class StereoShow final : public HeadsetShow {
     // Before other threads, as it takes the signals.
     DANCE_TRY(source_, PictureSource::open(view));
     DANCE_TRY(window_, HeadsetWindow::create(options_.is_mirrored));
-    const bool is_plain = options_.draws_plainly || is_software_rendering();
-    if (is_plain && !options_.draws_plainly)
-      talk::info("no graphics card here: drawing plainly, and hardly in time");
+    using Wish = HeadsetOptions::Quality;
+    const bool is_software = is_software_rendering();
+    const bool is_plain =
+        options_.quality == Wish::kLow || (options_.quality == Wish::kAuto && is_software);
+    if (is_software) talk::info("no graphics card here: pictures hardly come in time");
     const Language language = parse_language(options_.language).value_or(language_of_user());
     DANCE_TRY(painter_, StereoPainter::create(is_plain ? Quality::kLow : Quality::kHigh, language));
     const std::string shipped = data_folder() + "/avatars";

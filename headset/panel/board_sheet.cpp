@@ -24,7 +24,7 @@ static_assert(BoardSheet::kMostTags / kTagsInRow * 64 + 576 <= kSheetHeight_px);
 // A tag of a metre away; it keeps its size on the eye's picture up to kTagGrows_m.
 constexpr float kTagHeight_m = 0.055f;
 constexpr float kTagNear_m = 1.2f, kTagGrows_m = 8.0f;
-constexpr float kOverHead_m = 0.05f;
+constexpr float kOverHead_m = -0.03f;
 
 constexpr ImU32 kBack = IM_COL32(16, 18, 26, 250), kInk = IM_COL32(240, 240, 245, 255);
 constexpr ImU32 kSoft = IM_COL32(170, 175, 190, 255), kWarm = IM_COL32(255, 196, 120, 255);

@@ -76,7 +76,13 @@ void add_options(CommandLine& line, Wishes& wishes) {
       .range(1.5, 50.0)
       .shows_default();
   line.add_flag("--no-tags", wishes.no_tags, "without names over heads");
-  line.add_flag("--plain", headset.draws_plainly, "coarser figures, no mirror images: faster");
+  using Quality = HeadsetOptions::Quality;
+  line.add_choice<Quality>(
+      "--quality", headset.quality,
+      {{"auto", Quality::kAuto}, {"low", Quality::kLow}, {"high", Quality::kHigh}},
+      "auto, low (no antialiasing or mirror images, coarser figures) or high; auto is low without "
+      "a "
+      "graphics card");
   line.add_flag("--no-mirror", wishes.no_mirror, "without the window that shows the left eye");
   line.add("--avatar", headset.avatars,
            "a file (.vrm, .glb) that everybody is drawn as, or NAME=FILE for one guest; may be "

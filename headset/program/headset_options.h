@@ -22,7 +22,9 @@ struct HeadsetOptions {
   float personal_space_m = 0.45f;
   float floor_m = 8.0f;
   bool tags = true;
-  bool draws_plainly = false;
+  // Plainly: without antialiasing and mirror images, as where there is no graphics card.
+  enum class Quality : std::uint8_t { kAuto, kLow, kHigh };
+  Quality quality = Quality::kAuto;
   std::string language;  // "" = the system's
   std::vector<std::string> avatars;
   double seconds = 0.0;  // 0 = until told to stop
