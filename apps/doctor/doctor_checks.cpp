@@ -10,6 +10,7 @@
 
 #include "apps/doctor/doctor_camera.h"
 #include "apps/doctor/doctor_drawing.h"
+#include "apps/doctor/doctor_headset.h"
 #include "apps/doctor/doctor_sound.h"
 #include "core/base/histogram.h"
 #include "core/bus/bus.h"
@@ -177,6 +178,7 @@ std::vector<Finding> examine_machine(const std::string& bus_url) {
   findings.push_back(check_drawing());
   findings.push_back(check_camera());
   findings.push_back(check_pose_network());
+  findings.push_back(check_headset());
   findings.push_back(check_sound());
   findings.push_back(check_microphone());
   findings.push_back(check_media());
