@@ -22,6 +22,7 @@ XrDancerSession::~XrDancerSession() {
 }
 
 Result<void> XrDancerSession::open(const void* graphics) {
+  is_headless_ = graphics == nullptr;
   XrSessionCreateInfo info{};
   info.type = XR_TYPE_SESSION_CREATE_INFO;
   info.next = graphics;
@@ -89,7 +90,10 @@ void XrDancerSession::poll() {
 
 void XrDancerSession::take(XrSessionState state) {
   is_visible_ = state == XR_SESSION_STATE_VISIBLE || state == XR_SESSION_STATE_FOCUSED;
-  is_focused_.store(state == XR_SESSION_STATE_FOCUSED, std::memory_order_release);
+  was_focused_ = was_focused_ || state == XR_SESSION_STATE_FOCUSED;
+  const bool counts = is_headless_ && !was_focused_ && state != XR_SESSION_STATE_STOPPING &&
+                      state != XR_SESSION_STATE_IDLE;
+  is_focused_.store(state == XR_SESSION_STATE_FOCUSED || counts, std::memory_order_release);
   if (state == XR_SESSION_STATE_READY) {
     XrSessionBeginInfo info{};
     info.type = XR_TYPE_SESSION_BEGIN_INFO;

@@ -39,7 +39,8 @@ class XrDancerSession {
   const XrRuntime& runtime() const { return runtime_; }
   bool has_stage() const { return has_stage_; }
   bool is_running() const { return is_running_.load(std::memory_order_acquire); }
-  // Whether input comes: not while the runtime's own menu is open, or the headset is put down.
+  // Whether input comes: not while the runtime's own menu is open, or the headset is put down. Of
+  // sessions without pictures some runtimes never say so: those count until one says no.
   bool is_focused() const { return is_focused_.load(std::memory_order_acquire); }
   bool is_visible() const { return is_visible_; }
   Over over() const { return over_; }
@@ -58,7 +59,7 @@ class XrDancerSession {
   XrSession session_ = XR_NULL_HANDLE;
   XrSpace base_ = XR_NULL_HANDLE, view_ = XR_NULL_HANDLE;
   bool has_stage_ = false;
-  bool is_visible_ = false;
+  bool is_visible_ = false, is_headless_ = false, was_focused_ = false;
   std::atomic<bool> is_running_{false}, is_focused_{false};
   std::atomic<std::uint32_t> recentres_{0};
   std::uint32_t profile_changes_ = 0;
