@@ -1,10 +1,11 @@
 // FreeSpot: where a dancer with a headset is put on the stage: on the wanted spot, or, where
-// somebody stands there, before that one, face to face.
+// somebody stands there, before that one, face to face; where a couple does, beside it.
 //
 // Units/frames: metres on the floor of W; headings as core/pose/heading.h.
 // Ownership:    room for kMost others; never allocates.
 // Threads:      none inside; one owner.
-// Failure:      others beyond kMost are not minded.
+// Failure:      others beyond kMost are not minded; where all round about is full, it is the wanted
+//               spot.
 #pragma once
 
 #include <array>
@@ -30,6 +31,7 @@ class FreeSpot {
     MonoTime heard;
   };
   const Other* nearest(const XrSpot& spot, MonoTime now) const;
+  XrSpot beside(const XrSpot& wanted, MonoTime now) const;
 
   std::array<Other, kMost> others_{};
 };

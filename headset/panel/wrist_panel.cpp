@@ -59,11 +59,12 @@ bool WristPanel::is_looked_at(const Input& input) const {
 std::optional<Vector2f> WristPanel::point_at(const Input& input, bool& presses) const {
   const Vector3f normal = board_.axes_W.col(2);
   Vector3f at;
-  presses = false;
+  presses = input.is_pressed;
   if (input.fingertip_W_m) {
+    // Behind it too, so that one that went through does not press again on its way back.
     const float before = normal.dot(*input.fingertip_W_m - board_.centre_W_m);
-    if (before > 4.0f * kTouch_m || before < -kBehind_m) return std::nullopt;
     presses = before < kTouch_m;
+    if (before > 4.0f * kTouch_m || before < -kBehind_m) return std::nullopt;
     at = *input.fingertip_W_m;
   } else if (input.right_aim_W) {
     const Vector3f from = input.right_aim_W->translation();
@@ -72,7 +73,6 @@ std::optional<Vector2f> WristPanel::point_at(const Input& input, bool& presses) 
     if (towards < 0.05f) return std::nullopt;
     const float distance = normal.dot(from - board_.centre_W_m) / towards;
     if (distance < 0.0f || distance > kLongestRay_m) return std::nullopt;
-    presses = input.is_pressed;
     at = from + distance * along;
   } else {
     return std::nullopt;
@@ -96,8 +96,10 @@ std::optional<PanelAction> WristPanel::update(const Input& input, MonoTime now) 
   const float step = std::clamp(dt_s, 0.0f, kFade_s) / kFade_s;
   opacity_ = std::clamp(opacity_ + (shows ? step : -step), 0.0f, 1.0f);
 
+  // A press begins on the panel: one that is held when it appears is none.
   bool presses = false;
-  pointer_ = shows && opacity_ > 0.5f ? point_at(input, presses) : std::nullopt;
+  const auto pointed = point_at(input, presses);
+  pointer_ = shows && opacity_ > 0.5f ? pointed : std::nullopt;
   hovered_.reset();
   for (std::size_t i = 0; pointer_ && i < kPanelActions; ++i)
     if (area_of(static_cast<PanelAction>(i)).has(pointer_->x(), pointer_->y()))
