@@ -1,6 +1,7 @@
 #include "producers/trackers/tracker_body.h"
 
 #include "producers/trackers/body/geometric_guide.h"
+#include "producers/trackers/body/learned_guide.h"
 
 namespace dance {
 namespace {
@@ -8,14 +9,17 @@ namespace {
 // After a longer gap the dance begins anew.
 constexpr Duration kLongestPause = Duration::ms(500);
 
+std::unique_ptr<BodyGuide> guide_of(const TrackerBody::Options& options) {
+  if (options.guide == TrackerGuide::kGeometric) return std::make_unique<GeometricGuide>();
+  return std::make_unique<LearnedGuide>(options.model ? options.model : built_in_tracker_model());
+}
+
 bool is_smoothed(std::size_t point) { return point > index_of(TrackedPoint::kRightHand); }
 
 }  // namespace
 
 TrackerBody::TrackerBody(const Options& options)
-    : options_(options),
-      skeleton_(skeleton_of(calibration_.values())),
-      guide_(std::make_unique<GeometricGuide>()) {}
+    : options_(options), skeleton_(skeleton_of(calibration_.values())), guide_(guide_of(options)) {}
 
 TrackerBody::~TrackerBody() = default;
 TrackerBody::TrackerBody(TrackerBody&&) noexcept = default;

@@ -15,6 +15,7 @@
 
 #include "producers/trackers/body/body_fit.h"
 #include "producers/trackers/body/place_smoother.h"
+#include "producers/trackers/net/tracker_model.h"
 #include "producers/trackers/tracker_calibration.h"
 
 namespace dance {
@@ -29,6 +30,7 @@ class TrackerBody {
  public:
   struct Options {
     TrackerGuide guide = TrackerGuide::kAutomatic;
+    std::shared_ptr<const TrackerModel> model = nullptr;  // null: the built-in one
   };
 
   TrackerBody() : TrackerBody(Options()) {}

@@ -64,7 +64,7 @@ void UsualPosture::add(const TrackerFrame& frame) {
       (eyes - eyes_m_) * (1.0f - std::exp(-seconds / (eyes > eyes_m_ ? kEyesUp_s : kEyesDown_s)));
   const Vector3f origin = head_on_floor(frame);
   for (std::size_t i = 0; i < kTrackedPointCount; ++i) {
-    if ((frame.presence & before.presence) >> i % 32 & 1u) {
+    if ((frame.presence & before.presence) >> i & 1u) {
       const float speed = (frame.p_WT_m[i] - before.p_WT_m[i]).norm() / seconds;
       if (is_foot(i) && speed > kFootStands_m_s) continue;
       const Quaternionf R = R_WFacing_.conjugate() * frame.R_WT[i];
