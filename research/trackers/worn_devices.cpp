@@ -12,8 +12,8 @@ using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
 constexpr double kPerDegree = 3.14159265358979 / 180.0;
-constexpr double kFast_m = 0.0003, kSlow_m = 0.001;
-constexpr double kFast_rad = 0.05 * kPerDegree, kSlow_rad = 0.2 * kPerDegree;
+constexpr double kFast_m = 0.00015, kSlow_m = 0.001;
+constexpr double kFast_rad = 0.03 * kPerDegree, kSlow_rad = 0.2 * kPerDegree;
 constexpr double kSlow_s = 0.3;
 
 Vector3f normal_vector(Random& random, double sd) {
@@ -72,9 +72,19 @@ WornDevices::WornDevices(const Skeleton& body, std::uint32_t points, std::uint64
       mount = strapped(point);
     }
     mounts_[i] = mount;
-    slow_m_[i] = vector(kSlow_m);
-    slow_rad_[i] = vector(kSlow_rad);
+    slow_m_[i].fill(vector(kSlow_m));
+    slow_rad_[i].fill(vector(kSlow_rad));
   }
+}
+
+// Noise through two lags, so that it has no corners; its size is sd.
+void WornDevices::wander(Wander& slow, double keep, double sd) {
+  const auto k = static_cast<float>(keep);
+  // Variance of white noise of size 1 after both lags: (1 - k)^4 (1 + k²) / (1 - k²)^3.
+  const double left =
+      std::pow(1.0 - keep, 4) * (1.0 + keep * keep) / std::pow(1.0 - keep * keep, 3);
+  slow[0] = k * slow[0] + (1.0f - k) * vector(sd / std::sqrt(left));
+  slow[1] = k * slow[1] + (1.0f - k) * slow[0];
 }
 
 TrackerFrame WornDevices::see(const Pose& pose, double hz) {
@@ -83,15 +93,14 @@ TrackerFrame WornDevices::see(const Pose& pose, double hz) {
   TrackerFrame frame;
   frame.time = pose.capture_time;
   const double keep = std::exp(-1.0 / (hz * kSlow_s));
-  const double fresh = std::sqrt(1.0 - keep * keep);
   for (std::size_t i = 0; i < kTrackedPointCount; ++i) {
     if ((points_ >> i & 1u) == 0) continue;
-    slow_m_[i] = static_cast<float>(keep) * slow_m_[i] + vector(fresh * kSlow_m);
-    slow_rad_[i] = static_cast<float>(keep) * slow_rad_[i] + vector(fresh * kSlow_rad);
+    wander(slow_m_[i], keep, kSlow_m);
+    wander(slow_rad_[i], keep, kSlow_rad);
     const std::size_t b = index_of(kPointBones[i]);
     const Place seen = device_place(mounts_[i], {frames.p_WB_m[b], frames.R_WB[b]});
-    frame.put(static_cast<TrackedPoint>(i), seen.p_W_m + slow_m_[i] + vector(kFast_m),
-              (exp_rotation(slow_rad_[i] + vector(kFast_rad)) * seen.R_W).normalized());
+    frame.put(static_cast<TrackedPoint>(i), seen.p_W_m + slow_m_[i][1] + vector(kFast_m),
+              (exp_rotation(slow_rad_[i][1] + vector(kFast_rad)) * seen.R_W).normalized());
   }
   return frame;
 }

@@ -24,14 +24,17 @@ class WornDevices {
   const Mount& mount(TrackedPoint point) const { return mounts_[index_of(point)]; }
 
  private:
+  using Wander = std::array<Eigen::Vector3f, 2>;
+
   Eigen::Vector3f vector(double sd);
+  void wander(Wander& slow, double keep, double sd);
   Mount strapped(TrackedPoint point);
 
   Skeleton body_;
   std::uint32_t points_;
   Random random_;
   std::array<Mount, kTrackedPointCount> mounts_;
-  std::array<Eigen::Vector3f, kTrackedPointCount> slow_m_, slow_rad_;
+  std::array<Wander, kTrackedPointCount> slow_m_, slow_rad_;
 };
 
 // The bits of 3, 4, 6 or 10 points.
