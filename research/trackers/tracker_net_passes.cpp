@@ -9,7 +9,7 @@ namespace dance {
 namespace {
 
 constexpr std::size_t kFirstJudgedStep = 16, kChunk = 128;
-constexpr float kDropUnits = 0.1f;
+constexpr float kDropUnits = 0.25f;
 constexpr std::size_t kRow = kTrackerHalf * kTrackerUnits;
 
 // What each bone's rotation counts: the ones that carry much of the body more.

@@ -117,7 +117,7 @@ Pose human_t_pose(const Skeleton& body, const Vector3f& hips_m, float heading_ra
   const auto shaken = [&](double deg) {
     return Quaternionf(exp_rotation(normal_vector(random, deg * kPerDegree)));
   };
-  for (Quaternionf& q : pose.R_PB) q = shaken(2.0);
+  for (Quaternionf& q : pose.R_PB) q = shaken(1.5);
   pose.R_PB[0] = about_up(heading_rad) * shaken(2.0);
   for (const Bone upper : {Bone::kLeftUpperArm, Bone::kRightUpperArm})
     pose.R_PB[index_of(upper)] = shaken(5.0);
