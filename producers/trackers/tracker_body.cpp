@@ -40,12 +40,14 @@ void TrackerBody::forget_motion() {
 
 void TrackerBody::reset() {
   calibration_.reset();
+  refiner_.reset();
   take_body();
   forget_motion();
 }
 
 bool TrackerBody::restore(const CalibrationValues& values) {
   if (!calibration_.restore(values)) return false;
+  refiner_.reset();
   take_body();
   forget_motion();
   return true;
@@ -58,7 +60,10 @@ bool TrackerBody::solve(const TrackerFrame& frame, Pose& pose) {
   const float seconds =
       newest_.is_set() ? static_cast<float>((frame.time - newest_).as_seconds()) : 0.0f;
   newest_ = frame.time;
-  if (calibration_.observe(frame)) take_body();
+  if (calibration_.observe(frame)) {
+    take_body();
+    refiner_.reset();
+  }
   BonePlaces bones;
   calibration_.place_bones(frame, bones);
   for (std::size_t i = 0; i < kTrackedPointCount; ++i) {
@@ -69,6 +74,8 @@ bool TrackerBody::solve(const TrackerFrame& frame, Pose& pose) {
       bones.places[i] = smoothers_[i].follow(bones.places[i], seconds);
   }
   guide_->guess(skeleton_, bones, seconds, guess_);
+  refiner_.observe(bones, guess_, seconds);
+  refiner_.apply(bones);
   fit_.fit(skeleton_, guess_, bones, seconds, pose);
   pose.presence = kAllBones;
   pose.confidence = calibration_.state() == CalibrationState::kNeedsTPose ? 0.5f : 1.0f;

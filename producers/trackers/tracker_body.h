@@ -14,6 +14,7 @@
 #include <memory>
 
 #include "producers/trackers/body/body_fit.h"
+#include "producers/trackers/body/mount_refiner.h"
 #include "producers/trackers/body/place_smoother.h"
 #include "producers/trackers/net/tracker_model.h"
 #include "producers/trackers/tracker_calibration.h"
@@ -61,6 +62,7 @@ class TrackerBody {
   std::unique_ptr<BodyGuide> guide_;
   BodyFit fit_;
   std::array<PlaceSmoother, kTrackedPointCount> smoothers_;
+  MountRefiner refiner_;
   BodyGuess guess_;
   MonoTime newest_;
 };

@@ -9,14 +9,14 @@ namespace dance {
 namespace {
 
 constexpr std::size_t kFirstJudgedStep = 16, kChunk = 128;
-constexpr float kDropUnits = 0.25f;
+constexpr float kDropUnits = 0.2f;
 constexpr std::size_t kRow = kTrackerHalf * kTrackerUnits;
 
 // What each bone's rotation counts: the ones that carry much of the body more.
 constexpr std::array<float, kBoneCount> kBoneWeights{2.0f, 1.0f, 1.0f, 1.5f, 0.5f, 0.0f, 0.7f, 1.2f,
                                                      1.0f, 0.4f, 0.7f, 1.2f, 1.0f, 0.4f, 1.5f, 1.2f,
                                                      0.6f, 0.2f, 1.5f, 1.2f, 0.6f, 0.2f};
-constexpr float kPlaceWeight = 4.0f, kStandsWeight = 0.15f;
+constexpr float kPlaceWeight = 4.0f, kStandsWeight = 0.4f;
 constexpr float kTurnFloor = 0.05f, kPlaceFloor = 0.02f;
 constexpr float kPace = 1.0f, kPaceFloor = 0.01f;  // of the change from step to step
 

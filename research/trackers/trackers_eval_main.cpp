@@ -5,6 +5,7 @@
 #include "core/program/program.h"
 #include "research/trackers/tracker_model_file.h"
 #include "research/trackers/trackers_eval.h"
+#include "research/trackers/trackers_show.h"
 
 namespace dance {
 namespace {
@@ -12,6 +13,8 @@ namespace {
 constexpr const char* kTrackersEvalExamples = R"(Examples:
   dance trackers eval *.bvh.xz
   dance trackers eval other/*.bvh.xz --model body.model
+  dance trackers eval salsa.bvh --show tracked.lcm
+  dance view --log tracked.lcm --camera front
 
 Devices are simulated: each is worn a little elsewhere, and measured with noise; the solver finds
 out by a T-pose as people stand in one. The built-in model knows the takes of the project: one of
@@ -20,7 +23,7 @@ dance trackers train without some takes is to be judged on those.
 
 struct TrackersEvalWishes {
   std::vector<std::string> files;
-  std::string model;
+  std::string model, show;
   TrackerEvalOptions options;
 };
 
@@ -34,6 +37,7 @@ Result<void> run_trackers_eval(TrackersEvalWishes& wishes) {
     DANCE_TRY(PredictTake take, load_predict_take(file, 60.0));
     takes.push_back(std::move(take));
   }
+  if (!wishes.show.empty()) return show_trackers(takes.front(), wishes.options, wishes.show);
   std::vector<TrackerTrial> trials;
   for (const int points : {3, 4, 6, 10})
     for (const TrackerGuide guide :
@@ -58,6 +62,8 @@ int main(int argc, char** argv) {
       .range(20.0, 500.0)
       .shows_default();
   line.add("--model", wishes.model, "a model of dance trackers train instead of the built-in one");
+  line.add("--show", wishes.show,
+           "no table, but a log of the first file: danced, by rules, and learned, side by side");
   line.add("--seed", wishes.options.seed, "another number draws other bodies and devices")
       .shows_default();
   line.footer(dance::kTrackersEvalExamples);
