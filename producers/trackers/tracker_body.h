@@ -7,8 +7,8 @@
 //               even.
 // Ownership:    owns its state; never allocates after it was made.
 // Threads:      none inside; one owner.
-// Failure:      solve() is false, and changes nothing, for a frame that is not valid, without a head,
-//               or no newer than the one before.
+// Failure:      solve() is false, and changes nothing, for a frame that is not valid, that has no
+//               head, or that is no newer than the one before.
 #pragma once
 
 #include <memory>
