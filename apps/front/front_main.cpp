@@ -75,6 +75,8 @@ constexpr std::array kCommands{
             "prediction on recorded dances: errors beside simple extrapolators, cost"},
     Command{"display eval", "extrapolation to the photon on recorded dances, beside holding"},
     Command{"predict train", "trains a model of prediction"},
+    Command{"trackers eval", "whole bodies from few tracked points, on recorded dances"},
+    Command{"trackers train", "trains a model of whole bodies from few tracked points"},
     Command{"capture stereo eval",
             "depth from two cameras, on drawn dancers whose distance is known"},
     Command{"capture several eval",

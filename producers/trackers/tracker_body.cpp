@@ -1,6 +1,7 @@
 #include "producers/trackers/tracker_body.h"
 
 #include "producers/trackers/body/geometric_guide.h"
+#include "producers/trackers/body/learned_guide.h"
 
 namespace dance {
 namespace {
@@ -8,14 +9,17 @@ namespace {
 // After a longer gap the dance begins anew.
 constexpr Duration kLongestPause = Duration::ms(500);
 
+std::unique_ptr<BodyGuide> guide_of(const TrackerBody::Options& options) {
+  if (options.guide == TrackerGuide::kGeometric) return std::make_unique<GeometricGuide>();
+  return std::make_unique<LearnedGuide>(options.model ? options.model : built_in_tracker_model());
+}
+
 bool is_smoothed(std::size_t point) { return point > index_of(TrackedPoint::kRightHand); }
 
 }  // namespace
 
 TrackerBody::TrackerBody(const Options& options)
-    : options_(options),
-      skeleton_(skeleton_of(calibration_.values())),
-      guide_(std::make_unique<GeometricGuide>()) {}
+    : options_(options), skeleton_(skeleton_of(calibration_.values())), guide_(guide_of(options)) {}
 
 TrackerBody::~TrackerBody() = default;
 TrackerBody::TrackerBody(TrackerBody&&) noexcept = default;
@@ -36,12 +40,14 @@ void TrackerBody::forget_motion() {
 
 void TrackerBody::reset() {
   calibration_.reset();
+  refiner_.reset();
   take_body();
   forget_motion();
 }
 
 bool TrackerBody::restore(const CalibrationValues& values) {
   if (!calibration_.restore(values)) return false;
+  refiner_.reset();
   take_body();
   forget_motion();
   return true;
@@ -54,7 +60,10 @@ bool TrackerBody::solve(const TrackerFrame& frame, Pose& pose) {
   const float seconds =
       newest_.is_set() ? static_cast<float>((frame.time - newest_).as_seconds()) : 0.0f;
   newest_ = frame.time;
-  if (calibration_.observe(frame)) take_body();
+  if (calibration_.observe(frame)) {
+    take_body();
+    refiner_.reset();
+  }
   BonePlaces bones;
   calibration_.place_bones(frame, bones);
   for (std::size_t i = 0; i < kTrackedPointCount; ++i) {
@@ -65,6 +74,8 @@ bool TrackerBody::solve(const TrackerFrame& frame, Pose& pose) {
       bones.places[i] = smoothers_[i].follow(bones.places[i], seconds);
   }
   guide_->guess(skeleton_, bones, seconds, guess_);
+  refiner_.observe(bones, guess_, seconds);
+  refiner_.apply(bones);
   fit_.fit(skeleton_, guess_, bones, seconds, pose);
   pose.presence = kAllBones;
   pose.confidence = calibration_.state() == CalibrationState::kNeedsTPose ? 0.5f : 1.0f;

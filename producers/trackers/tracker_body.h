@@ -7,14 +7,16 @@
 //               even.
 // Ownership:    owns its state; never allocates after it was made.
 // Threads:      none inside; one owner.
-// Failure:      solve() is false, and changes nothing, for a frame that is not valid, without a head,
-//               or no newer than the one before.
+// Failure:      solve() is false, and changes nothing, for a frame that is not valid, that has no
+//               head, or that is no newer than the one before.
 #pragma once
 
 #include <memory>
 
 #include "producers/trackers/body/body_fit.h"
+#include "producers/trackers/body/mount_refiner.h"
 #include "producers/trackers/body/place_smoother.h"
+#include "producers/trackers/net/tracker_model.h"
 #include "producers/trackers/tracker_calibration.h"
 
 namespace dance {
@@ -29,6 +31,7 @@ class TrackerBody {
  public:
   struct Options {
     TrackerGuide guide = TrackerGuide::kAutomatic;
+    std::shared_ptr<const TrackerModel> model = nullptr;  // null: the built-in one
   };
 
   TrackerBody() : TrackerBody(Options()) {}
@@ -59,6 +62,7 @@ class TrackerBody {
   std::unique_ptr<BodyGuide> guide_;
   BodyFit fit_;
   std::array<PlaceSmoother, kTrackedPointCount> smoothers_;
+  MountRefiner refiner_;
   BodyGuess guess_;
   MonoTime newest_;
 };

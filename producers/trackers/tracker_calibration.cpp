@@ -26,8 +26,8 @@ constexpr float kSpanToTheLeft = 0.7f;
 constexpr float kTrustHands = 0.7f;
 // A headset sits straight on the head within this; a hand holds a controller so.
 constexpr float kHeadWithin_rad = 0.45f, kHandWithin_rad = 0.8f;
-// How much of a hand's turn in T-pose is the device's, and not the wrist's.
-constexpr float kTrustHandTurn = 0.5f;
+// How much of a turn in T-pose is the device's, and not the neck's or the wrist's.
+constexpr float kTrustHeadTurn = 0.35f, kTrustHandTurn = 0.5f;
 // A new height is worth a change of the body.
 constexpr float kHeightStep = 0.01f;
 constexpr float kFirstPosture_s = 8.0f, kNextPosture_s = 16.0f;
@@ -170,7 +170,7 @@ void TrackerCalibration::take_t_pose(const StillWindow& still) {
     const float apart = usual.R_BT.angularDistance(found.R_BT);
     mount = usual;
     if (apart < (is_head ? kHeadWithin_rad : kHandWithin_rad))
-      mount.R_BT = usual.R_BT.slerp(is_head ? 1.0f : kTrustHandTurn, found.R_BT);
+      mount.R_BT = usual.R_BT.slerp(is_head ? kTrustHeadTurn : kTrustHandTurn, found.R_BT);
   }
   values_.state = CalibrationState::kFromTPose;
 }

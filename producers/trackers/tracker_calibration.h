@@ -40,8 +40,8 @@ class TrackerCalibration {
  public:
   TrackerCalibration();
 
-  // The next moment of standing still counts as the T-pose, also where one was found before. Without
-  // hands, standing upright is enough. Not needed for the first: arms stretched out are recognised.
+  // The next second of standing still counts as the T-pose, also where one was found before; where
+  // no hands are tracked, standing upright is enough. The first T-pose is recognised by itself.
   void request_t_pose();
   // A valid frame, each once. Returns whether the values changed.
   bool observe(const TrackerFrame& frame);

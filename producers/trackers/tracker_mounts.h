@@ -5,8 +5,8 @@
 // Ownership:    plain values.
 // Threads:      none inside.
 // Failure:      none. A mount that is not known is of no use: its point counts as not tracked.
-// Source:       OpenXR 1.0, grip pose, for what hands hold; eyes against the head bone after Winter,
-//               Biomechanics and Motor Control of Human Movement (2009).
+// Source:       OpenXR 1.0, grip pose, for what hands hold; eyes against the head bone after
+//               Winter, Biomechanics and Motor Control of Human Movement (2009).
 #pragma once
 
 #include "core/pose/pose.h"

@@ -30,6 +30,7 @@ class BodyFit {
     const BodyGuess& guess;
     const BonePlaces& bones;
     float seconds;
+    bool points_changed;
     BodyFrames frames;
   };
 
@@ -41,6 +42,7 @@ class BodyFit {
 
   std::array<PointFade, kTrackedPointCount> fades_;
   std::array<FootHold, 2> holds_;
+  std::uint32_t presence_ = 0;
 };
 
 }  // namespace dance

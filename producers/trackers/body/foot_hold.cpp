@@ -8,9 +8,9 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr float kHoldAbove = 0.55f, kReleaseBelow = 0.3f;  // probabilities
+constexpr float kHoldAbove = 0.3f, kReleaseBelow = 0.15f;  // probabilities
 constexpr float kHoldBelow_m = 0.07f;                      // of the ball over its rest
-constexpr float kFurthest_m = 0.16f, kCaughtUp_m = 0.03f;
+constexpr float kFurthest_m = 0.25f, kCaughtUp_m = 0.03f;
 constexpr float kDown_s = 0.03f;
 constexpr float kLiftOfShift = 0.3f, kMostLift_m = 0.05f;
 constexpr float kJump_m = 1.0f;

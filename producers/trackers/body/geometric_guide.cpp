@@ -140,12 +140,20 @@ void GeometricGuide::swing(Foot& foot, const Vector3f& to, float seconds) const 
   foot.stood_s = 0.0f;
 }
 
-void GeometricGuide::step_feet(const Skeleton& skeleton, const BodyGuess& guess, float seconds) {
+void GeometricGuide::step_feet(const Skeleton& skeleton, const BonePlaces& bones,
+                               const BodyGuess& guess, float seconds) {
   const std::array<Vector3f, 2> rest{rest_place(skeleton, guess, true),
                                      rest_place(skeleton, guess, false)};
   std::array<float, 2> urge{};
   for (std::size_t side = 0; side < 2; ++side) {
     Foot& foot = feet_[side];
+    const TrackedPoint point = side == 0 ? TrackedPoint::kLeftFoot : TrackedPoint::kRightFoot;
+    if (bones.has(point)) {
+      foot = Foot();
+      foot.ankle = bones.of(point).p_W_m;
+      foot.yaw_rad = heading_rad(bones.of(point).R_W);
+      continue;
+    }
     Vector3f apart = rest[side] - foot.ankle;
     apart.y() = 0.0f;
     if (!began_ || apart.norm() > kJumped_m) {
@@ -207,7 +215,7 @@ void GeometricGuide::guess(const Skeleton& skeleton, const BonePlaces& bones, fl
     hips_m_s_ += (1.0f - std::exp(-seconds / kHipsSpeed_s)) * (speed - hips_m_s_);
   }
   hips_before_ = guess.p_WH_m;
-  step_feet(skeleton, guess, seconds);
+  step_feet(skeleton, bones, guess, seconds);
   began_ = true;
   // Frames of the trunk, for the limbs to begin from.
   Pose pose;

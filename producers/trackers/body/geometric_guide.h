@@ -31,7 +31,8 @@ class GeometricGuide : public BodyGuide {
   void guess_arm(const Skeleton& skeleton, const BonePlaces& bones, bool left, const Pose& pose,
                  BodyFrames& frames, BodyGuess& guess) const;
   void guess_legs(const Skeleton& skeleton, Pose& pose, BodyFrames& frames, BodyGuess& guess) const;
-  void step_feet(const Skeleton& skeleton, const BodyGuess& guess, float seconds);
+  void step_feet(const Skeleton& skeleton, const BonePlaces& bones, const BodyGuess& guess,
+                 float seconds);
   void swing(Foot& foot, const Eigen::Vector3f& to, float seconds) const;
   Eigen::Vector3f rest_place(const Skeleton& skeleton, const BodyGuess& guess, bool left) const;
 

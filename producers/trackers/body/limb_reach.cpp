@@ -16,7 +16,7 @@ using Eigen::Vector3f;
 constexpr std::array kSpineBones{Bone::kSpine, Bone::kChest, Bone::kUpperChest, Bone::kNeck};
 constexpr std::array kSpineEnds{Bone::kChest, Bone::kUpperChest, Bone::kNeck, Bone::kHead};
 // The lower spine carries more of a bend than the neck.
-constexpr std::array kSpineShares{1.0f, 1.0f, 0.7f, 0.5f};
+constexpr std::array kSpineShares{1.5f, 0.7f, 0.2f, 0.1f};
 constexpr int kSpineRounds = 8;
 constexpr float kSpineDamping = 2e-4f, kSpineMostTurn_rad = 0.25f;
 constexpr float kMostShoulder_rad = 0.45f;

@@ -16,7 +16,7 @@ constexpr float kFacing_s = 0.4f, kWalk_s = 0.5f;
 // Straight walks say where a dancer faces; who dances goes backwards as well.
 constexpr float kWalks_m_s = 0.6f;
 constexpr float kForward = 0.8f;
-constexpr float kFootStands_m_s = 0.08f;
+constexpr float kFootStands_m_s = 0.12f, kFootOver_s = 0.1f;
 // The eyes' usual height: quickly up, slowly down, so that it stays near the upper end.
 constexpr float kEyesUp_s = 0.6f, kEyesDown_s = 15.0f;
 
@@ -64,8 +64,10 @@ void UsualPosture::add(const TrackerFrame& frame) {
       (eyes - eyes_m_) * (1.0f - std::exp(-seconds / (eyes > eyes_m_ ? kEyesUp_s : kEyesDown_s)));
   const Vector3f origin = head_on_floor(frame);
   for (std::size_t i = 0; i < kTrackedPointCount; ++i) {
-    if ((frame.presence & before.presence) >> i % 32 & 1u) {
-      const float speed = (frame.p_WT_m[i] - before.p_WT_m[i]).norm() / seconds;
+    if ((frame.presence & before.presence) >> i & 1u) {
+      // Over a tenth of a second, as noise would make any foot move.
+      lately_m_[i] += (frame.p_WT_m[i] - lately_m_[i]) * (1.0f - std::exp(-seconds / kFootOver_s));
+      const float speed = (frame.p_WT_m[i] - lately_m_[i]).norm() / kFootOver_s;
       if (is_foot(i) && speed > kFootStands_m_s) continue;
       const Quaternionf R = R_WFacing_.conjugate() * frame.R_WT[i];
       const Eigen::Vector4f c = R.coeffs();

@@ -31,6 +31,7 @@ class UsualPosture {
 
   std::array<Eigen::Vector3f, kTrackedPointCount> position_sums_{zeros()};
   std::array<Eigen::Vector4f, kTrackedPointCount> rotation_sums_{zeros4()};
+  std::array<Eigen::Vector3f, kTrackedPointCount> lately_m_{zeros()};
   std::array<float, kTrackedPointCount> seen_s_{};
   TrackerFrame before_;
   Eigen::Vector3f walk_m_s_ = Eigen::Vector3f::Zero();
