@@ -57,7 +57,7 @@ class FigureDrawingTest : public testing::Test {
   void draw(std::span<const PosedFigure> figures, float yaw_rad = 0.0f,
             const StageLook& look = {}) {
     const OrbitCamera camera = straight_camera(yaw_rad);
-    const auto taken = drawer_->take(figures, camera, kSide_px, look);
+    const auto taken = drawer_->take(figures, eye_of(camera, kSide_px, kSide_px), look);
     ASSERT_TRUE(taken) << taken.error().what;
     target_->bind_light();
     glEnable(GL_DEPTH_TEST);
