@@ -148,12 +148,15 @@ void HeadsetCapture::tell() {
   told_.put(now_);
 }
 
-// Nothing is written while nothing changes: never more than a line for each point and change.
+// Nothing is written while nothing changes: never more than a line for each point and change. A
+// headset that is put down, or shows its own menu, tells of no hands and trackers: that is a line
+// of its own, and they are not lost.
 void HeadsetCapture::tell_losses(MonoTime now) {
+  const bool is_told_all = session_.is_focused();
   for (std::size_t i = 0; i < kTrackedPointCount; ++i) {
     const std::uint32_t bit = 1u << i;
     const bool is_seen = (sight_.points.presence & bit) != 0;
-    if (is_seen) seen_[i] = now;
+    if (is_seen || (!is_told_all && seen_[i].is_set())) seen_[i] = now;
     if (is_seen && (missed_ & bit) != 0) {
       missed_ &= ~bit;
       talk::info("{} is tracked again", kTrackedPointNames[i]);

@@ -1,8 +1,9 @@
-// HeadsetCapture: a headset's dancer onto the bus, as direct as it can be: in a thread of its own, so
-// many times a second, the devices are asked where they are now, the body is solved, and published.
-// What is felt goes the other way in the same thread.
+// HeadsetCapture: a headset's dancer onto the bus, as direct as it can be: in a thread of its own,
+// so many times a second, the devices are asked where they are now, the body is solved, and
+// published. What is felt goes the other way in the same thread.
 //
-// Units/frames: capture times are the moments that the runtime was asked for, in this house's clock.
+// Units/frames: capture times are the moments that the runtime was asked for, in this house's
+//               clock.
 // Ownership:    owns bus, poll loop and thread; the destructor ends the thread. Refers to session
 //               and input, which must outlive it.
 // Threads:      start() on the owner's; request…() and told() on any one other thread.

@@ -9,7 +9,12 @@ namespace dance {
 
 Result<std::unique_ptr<HeadsetWindow>> HeadsetWindow::create(bool is_shown) {
   std::unique_ptr<HeadsetWindow> self(new HeadsetWindow);
-  DANCE_TRY(self->window_, ViewWindow::create({960, 540}, *self));
+  auto window = ViewWindow::create({960, 540}, *self);
+  // Its advice is for who only looks.
+  if (!window)
+    return fail(window.error().what +
+                "; or dance without pictures in the headset: dance headset --tracking-only");
+  self->window_ = std::move(*window);
   self->is_shown_ = is_shown;
   if (!is_shown) glfwHideWindow(self->window_->handle());
   // The headset sets the pace; a desk's monitor must not hold it up.

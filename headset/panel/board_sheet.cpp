@@ -77,6 +77,7 @@ std::string BoardSheet::content_of(const WristPanel& panel, const PanelWords& wo
     content += guest.id.view();
     content += static_cast<char>('0' + static_cast<int>(guest.voice_mark));
     content += guest.voice > 0.05f ? '+' : '-';
+    content += guest.hides_head ? 'h' : '-';
   }
   if (panel.opacity() <= 0.0f) return content + "|";
   content += "|" + words.title + "|" + std::to_string(words.tracked) + "," +

@@ -5,7 +5,8 @@
 // Ownership:    owns all.
 // Threads:      the main thread; capture and bus have their own.
 // Failure:      run() fails where there can be no pictures at all (no display, no OpenGL). What
-//               comes and goes (runtime, headset, session) is told in one line each, and waited for.
+//               comes and goes (runtime, headset, session) is told in one line each, and waited
+//               for.
 #pragma once
 
 #include <memory>

@@ -1,14 +1,28 @@
 #include "house/headset/hosted_headset.h"
 
+#include "core/base/comma_numbers.h"
 #include "core/base/plain_number.h"
+#include "core/pose/pose.h"
 #include "house/toml_reader.h"
 
 namespace dance {
+namespace {
+
+bool is_spot(const std::string& text) {
+  const auto numbers = comma_numbers(text);
+  return numbers && (numbers->size() == 2 || numbers->size() == 3) &&
+         std::all_of(numbers->begin(), numbers->end(),
+                     [](float number) { return std::abs(number) <= kMaxStageDistance_m; });
+}
+
+}  // namespace
 
 HostedHeadset read_headset(TomlReader& reader) {
   HostedHeadset headset;
   headset.guest = read_guest(reader, "guest", reader.required_string("guest"));
   headset.at = reader.string_or("at", "");
+  if (!headset.at.empty() && !is_spot(headset.at))
+    reader.complain("at", "is X,Z or X,Z,HEADING, in metres and degrees, as \"0,1.5,180\"");
   headset.body = reader.string_or("body", "");
   if (!headset.body.empty() && headset.body != "auto" && headset.body != "rules" &&
       headset.body != "learned")

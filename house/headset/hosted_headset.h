@@ -1,5 +1,5 @@
-// HostedHeadset: a dancer of a house with a headset: [[produce]] of kind "headset", and the words of
-// `dance headset` for it.
+// HostedHeadset: a dancer of a house with a headset: [[produce]] of kind "headset", and the words
+// of `dance headset` for it.
 //
 // Units/frames: as `dance headset` takes them.
 // Ownership:    plain value.

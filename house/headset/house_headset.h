@@ -1,5 +1,5 @@
-// HouseHeadset: a headset of a house's session: a dance-headset program of its own beside the house,
-// so that what a vendor's runtime does in its process is nothing to the stage and the line.
+// HouseHeadset: a headset of a house's session: a dance-headset program of its own beside the
+// house, so that what a vendor's runtime does in its process is nothing to the stage and the line.
 //
 // Units/frames: none.
 // Ownership:    owns the program, which ends with it; refers to port and poller, which must outlive

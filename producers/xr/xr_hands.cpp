@@ -18,7 +18,8 @@ constexpr float kPalmToGrip_m = 0.02f;  // from the bones of the palm to the mid
 const Vector3f kThumb(0.70710678f, 0.0f, 0.70710678f);
 const Vector3f kThumbNail(-0.56568542f, 0.6f, 0.56568542f);
 
-// Turns a bone of the T-pose into its OpenXR joint: R_BJ, from where the joint's tip and back point.
+// Turns a bone of the T-pose into its OpenXR joint: R_BJ, from where the joint's tip and back
+// point.
 Quaternionf joint_in_bone(const Vector3f& tip, const Vector3f& back) {
   Matrix3f R;
   R.col(2) = -tip;

@@ -3,7 +3,8 @@
 //
 // Units/frames: XrPlacement is X_WS, the session's base space in W: a turn about the vertical and a
 //               shift.
-// Ownership:    owns trackers of hands and body; refers to input and session, which must outlive it.
+// Ownership:    owns trackers of hands and body; refers to input and session, which must outlive
+//               it.
 // Threads:      none inside; one owner. Several may look at the same session.
 // Failure:      a part that the runtime refuses is left out, and note() says so.
 #pragma once

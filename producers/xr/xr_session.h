@@ -1,5 +1,5 @@
-// XrSession: a session with the headset, through its states: it begins and ends as the runtime says,
-// and tells when it is over.
+// XrSession: a session with the headset, through its states: it begins and ends as the runtime
+// says, and tells when it is over.
 //
 // Units/frames: the base space is the runtime's stage (+Y up, floor at 0), or where it has none its
 //               local space, whose floor is not known.

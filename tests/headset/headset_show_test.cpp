@@ -1,0 +1,122 @@
+// dance headset with pictures, under a display without a screen: the stage in both eyes, and the
+// panel at the wrist.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/headset/headset_programs.h"
+#include "tests/headset/scripted_hands.h"
+#include "tests/virtual_display.h"
+
+namespace dance {
+namespace {
+
+using Eigen::Quaternionf;
+using Eigen::Vector3f;
+
+// Small, as the processor draws it.
+constexpr const char* kSmall = "refresh 30\nsize 160 176\n";
+
+class HeadsetShowTest : public HeadsetPrograms {
+ protected:
+  void SetUp() override {
+    if (display_.display().empty()) GTEST_SKIP() << kNoVirtualDisplay;
+    set("DISPLAY", display_.display());
+    ::unsetenv("WAYLAND_DISPLAY");  // NOLINT(concurrency-mt-unsafe)
+    HeadsetPrograms::SetUp();
+  }
+  ChildProcess& put_on_small(const std::string& script, std::vector<std::string> more = {}) {
+    more.insert(more.begin(), {"--plain", "--language", "en"});
+    return put_on(kSmall + script, std::move(more));
+  }
+  int pictures() const { return count_of(record(), "layers 1"); }
+  bool shows_more(int pictures_more) {
+    const int wanted = pictures() + pictures_more;
+    return until([&] { return pictures() >= wanted; });
+  }
+
+  VirtualDisplay display_;
+};
+
+TEST_F(HeadsetShowTest, TheStageIsDrawnForBothEyesWhereTheyAreAndTheProgramEndsWhenItIsTold) {
+  set("DANCE_XR_PICTURES", folder_.path());
+  ChildProcess& program = put_on_small("pictures 5\n");
+  ASSERT_TRUE(until([&] { return pictures() >= 12; })) << talk() << record();
+  EXPECT_GT(captured_["alice"].poses, 0);
+  EXPECT_TRUE(has_recorded("view left -0.03")) << "where the runtime has the eye, in its space";
+  EXPECT_TRUE(has_recorded("view right 0.03"));
+  std::string left, right;
+  ASSERT_TRUE(until([&] {
+    for (const auto& file : std::filesystem::directory_iterator(folder_.path())) {
+      const std::string name = file.path().filename();
+      if (name.ends_with("-left.ppm")) left = text_of(file.path());
+      if (name.ends_with("-right.ppm")) right = text_of(file.path());
+    }
+    return left.size() > 15 && right.size() == left.size();
+  })) << record();
+  EXPECT_TRUE(left.starts_with("P6\n160 176\n255\n")) << left.substr(0, 20);
+  EXPECT_GT(std::set<char>(left.begin() + 15, left.end()).size(), 10u) << "it is not blank";
+  EXPECT_NE(left, right);
+  program.stop(Duration::s(60));
+  EXPECT_TRUE(program.ended_well()) << program.exit_text() << talk();
+  EXPECT_EQ(said("pictures of 160x176 px an eye"), 1) << talk();
+  EXPECT_TRUE(has_recorded("session EXITING")) << record();
+}
+
+TEST_F(HeadsetShowTest, TimesThatCannotBeTrueAndEyesThatAreNotKnownDoNotStopThePictures) {
+  ChildProcess& program = put_on_small(
+      "at 2 bad_time zero\nat 3 bad_time past\nat 4 bad_time far\nat 5 bad_time garbage\n"
+      "at 6 nan head\nat 6.5 lose head\nat 7 find head\nat 7.5 visible off\nat 8 visible on\n"
+      "at 9 exit\n",
+      {"--no-mirror"});
+  ASSERT_TRUE(until([&] { return program.has_ended(); })) << talk();
+  EXPECT_TRUE(program.ended_well()) << program.exit_text() << talk();
+  EXPECT_GT(pictures(), 10) << record();
+  EXPECT_EQ(said("4 times that could not be true"), 1) << talk();
+  EXPECT_EQ(said("ended with the headset"), 1) << talk();
+}
+
+TEST_F(HeadsetShowTest, AfterALostSessionThePicturesComeBack) {
+  put_on_small("at 3 lose_session\nat 9 lose_instance\n");
+  ASSERT_TRUE(until([&] { return said("is back: alice dances with it") == 1; })) << talk();
+  ASSERT_TRUE(shows_more(10)) << talk() << record();
+  ASSERT_TRUE(until([&] { return said("is back: alice dances with it") == 2; })) << talk();
+  ASSERT_TRUE(shows_more(10)) << talk() << record();
+  EXPECT_EQ(said("lost its session"), 2) << talk();
+  EXPECT_FALSE(children_.front().has_ended());
+}
+
+// The dancer walks a metre aside, looks at the back of the left wrist, and presses.
+TEST_F(HeadsetShowTest, ThePanelAtTheWristPutsTheDancerBackAndLetsHerLeave) {
+  const Vector3f first(0.0f, 1.6f, 0.0f), then(1.0f, 1.6f, 0.0f);
+  const ScriptedHands hands(then);
+  const std::string moves =
+      ScriptedHands::line(0.0, "head", first, Quaternionf::Identity()) +
+      ScriptedHands::line(3.0, "head", first, Quaternionf::Identity()) +
+      ScriptedHands::line(3.5, "head", then, Quaternionf::Identity()) + hands.left_at(0.0) +
+      hands.right_at(0.0, PanelAction::kRecentre) + hands.right_at(11.0, PanelAction::kRecentre) +
+      hands.right_at(11.1, PanelAction::kLeave) +
+      "at 7 press right trigger\nat 10 release right trigger\nat 14 press right trigger\n";
+  ChildProcess& program = put_on_small(moves, {"--at", "0,0,180"});
+  ASSERT_TRUE(until([&] {
+    return captured_["alice"].poses > 0 && newest("alice").p_WH_m.x() > 0.6f;
+  })) << talk();
+  ASSERT_TRUE(until([&] { return newest("alice").p_WH_m.x() < 0.4f; })) << "put back: " << talk();
+  EXPECT_TRUE(has_recorded("haptic right 0.4000 25000000 ")) << "a press is felt";
+  EXPECT_FALSE(program.has_ended());
+  ASSERT_TRUE(until([&] { return program.has_ended(); })) << talk();
+  EXPECT_TRUE(program.ended_well()) << program.exit_text() << talk();
+  EXPECT_TRUE(has_recorded("session EXITING")) << record();
+}
+
+TEST_F(HeadsetShowTest, WithoutADisplayOneLineNamesTheCure) {
+  ::unsetenv("DISPLAY");  // NOLINT(concurrency-mt-unsafe)
+  ChildProcess& program = put_on_small("");
+  ASSERT_TRUE(until([&] { return program.has_ended(); }));
+  EXPECT_EQ(program.exit_code(), 1);
+  EXPECT_EQ(count_of(talk(), "\n"), 1) << talk();
+  EXPECT_EQ(said("--tracking-only"), 1) << talk();
+}
+
+}  // namespace
+}  // namespace dance
