@@ -12,7 +12,9 @@ namespace {
 // So long the others of the stage are waited for, before a free spot is chosen.
 constexpr Duration kLooksRound = Duration::ms(800);
 constexpr Duration kIsLost = Duration::ms(1500);
-constexpr float kEyes = 0.936f;  // of a body's height; Winter (2009)
+constexpr Duration kPutDown = Duration::ms(1500);
+constexpr float kBreathes_m = 0.004f;  // nobody holds the head stiller for so long
+constexpr float kEyes = 0.936f;        // of a body's height; Winter (2009)
 
 }  // namespace
 
@@ -34,8 +36,7 @@ HeadsetCapture::HeadsetCapture(const XrDancerSession& session, XrInput& input,
       options_(options),
       sensors_(session, input),
       dancer_(options.body),
-      recentres_(session.recentres()) {
-  if (memory.placement) now_.placement = *memory.placement, now_.is_placed = true;
+      spot_(memory.spot) {
   if (memory.body) dancer_.body().restore(*memory.body);
 }
 
@@ -66,7 +67,7 @@ HeadsetMemory HeadsetCapture::stop() {
     thread_.join();
   }
   HeadsetMemory memory;
-  if (now_.is_placed) memory.placement = now_.placement;
+  memory.spot = spot_;
   if (dancer_.values().state != CalibrationState::kNeedsTPose) memory.body = dancer_.values();
   return memory;
 }
@@ -92,11 +93,13 @@ MonoTime HeadsetCapture::tick(MonoTime now) {
   place(time, moment);
   if (now_.is_placed && time > 0) {
     sensors_.look(time, moment, now_.placement, sight_);
-    if (dancer_.solve(sight_, pose_))
+    if (!is_worn(moment))
+      ++unworn_;
+    else if (dancer_.solve(sight_, pose_))
       publish(moment);
     else
       ++without_head_;
-    tell_losses(moment);
+    note_losses(moment);
   }
   tell();
   // An even beat, which skips what is missed.
@@ -106,27 +109,45 @@ MonoTime HeadsetCapture::tick(MonoTime now) {
   return next_;
 }
 
+// A runtime's space that is moved, or another one in a new session, leaves the dancer where the head
+// was on the stage. The first time, and when it is asked for, it is the spot that was chosen.
 void HeadsetCapture::place(XrTime time, MonoTime moment) {
   const bool is_asked = recentre_asked_.load(std::memory_order_acquire);
-  const bool is_moved = session_.recentres() != recentres_;
-  if (now_.is_placed && !is_asked && !is_moved) return;
-  if (!now_.is_placed && moment - begun_ < kLooksRound) return;
+  const std::uint32_t recentres = session_.recentres();
+  const bool is_moved = recentres != now_.recentres;
   const auto head = input_.head(time);
   if (!head) return;
+  if (now_.is_placed && !is_asked && !is_moved) {
+    spot_ = spot_of(now_.placement.in_house(*head)).value_or(spot_.value_or(options_.spot));
+    return;
+  }
+  if (is_moved && now_.is_placed && moment < session_.runtime().mono_of(session_.recentre_time()))
+    return;
+  // A headset that lies on a table looks nowhere.
+  if (!session_.is_focused() || !spot_of(*head)) return;
+  const bool is_chosen = is_asked || !spot_;
+  if (is_chosen && !now_.is_placed && moment - begun_ < kLooksRound) return;
   recentre_asked_.store(false, std::memory_order_release);
-  recentres_ = session_.recentres();
+  now_.recentres = recentres;
   // Of a space without a floor: as far below the eyes as they are above it when one stands.
   const float floor =
       session_.has_stage() ? 0.0f : head->p_m.y() - kEyes * dancer_.values().height_m;
-  now_.placement = placement_of(*head, others_.before(options_.spot, moment), floor);
+  const XrSpot spot = is_chosen ? others_.before(options_.spot, moment) : *spot_;
+  now_.placement = placement_of(*head, spot, floor);
   now_.is_placed = true;
   ++now_.jumps;
 }
 
+// With its own menu open a headset moves on a head; one that was put down lies still.
+bool HeadsetCapture::is_worn(MonoTime moment) {
+  const bool has_head = sight_.points.has(TrackedPoint::kHead);
+  const Eigen::Vector3f head = sight_.points.position(TrackedPoint::kHead);
+  if (has_head && (head - rested_at_m_).norm() > kBreathes_m) rested_at_m_ = head, moved_ = moment;
+  return session_.is_focused() || moment - moved_ < kPutDown;
+}
+
 void HeadsetCapture::publish(MonoTime captured) {
   received_->set_skeleton(dancer_.skeleton());
-  pose_.presence = kAllBones;
-  pose_.confidence = 1.0f;
   // A body that was seen before is of then, and is published once.
   if (!received_->capture(pose_, pose_.capture_time, captured)) return;
   delay_.add(mono_now() - captured);
@@ -148,31 +169,21 @@ void HeadsetCapture::tell() {
   told_.put(now_);
 }
 
-// Nothing is written while nothing changes: never more than a line for each point and change. A
-// headset that is put down, or shows its own menu, tells of no hands and trackers: that is a line
-// of its own, and they are not lost.
-void HeadsetCapture::tell_losses(MonoTime now) {
-  const bool is_told_all = session_.is_focused();
+// Another thread says it: nothing is written here.
+void HeadsetCapture::note_losses(MonoTime now) {
   for (std::size_t i = 0; i < kTrackedPointCount; ++i) {
     const std::uint32_t bit = 1u << i;
-    const bool is_seen = (sight_.points.presence & bit) != 0;
-    if (is_seen || (!is_told_all && seen_[i].is_set())) seen_[i] = now;
-    if (is_seen && (missed_ & bit) != 0) {
-      missed_ &= ~bit;
-      talk::info("{} is tracked again", kTrackedPointNames[i]);
-    }
-    if (!is_seen && seen_[i].is_set() && (missed_ & bit) == 0 && now - seen_[i] > kIsLost) {
-      missed_ |= bit;
-      talk::warn("{} is not tracked any more; the dance goes on without it", kTrackedPointNames[i]);
-    }
+    if ((sight_.points.presence & bit) != 0) seen_[i] = now, now_.lost &= ~bit;
+    if (seen_[i].is_set() && now - seen_[i] > kIsLost) now_.lost |= bit;
   }
 }
 
 std::string HeadsetCapture::summary() const {
   return fmt::format(
-      "{} poses, {} moments without a head; from the moment of the sensors to the bus {} us at the "
-      "median, {} us at p99",
-      poses_, without_head_, delay_.percentile(0.5).count_us(), delay_.percentile(0.99).count_us());
+      "{} poses; {} moments without a head, {} with the headset put down, {} places that could not "
+      "be true; from the moment of the sensors to the bus {} us at the median, {} us at p99",
+      poses_, without_head_, unworn_, input_.bad_places(), delay_.percentile(0.5).count_us(),
+      delay_.percentile(0.99).count_us());
 }
 
 }  // namespace dance

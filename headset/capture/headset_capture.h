@@ -37,9 +37,10 @@ struct HeadsetCaptureOptions {
   HapticPlayerOptions player;
 };
 
-// What outlives a session: a headset that went away comes back to the same place and body.
+// What outlives a session: a headset that went away comes back to the same body, and its dancer to
+// where the head was. The runtime's space may be another one then.
 struct HeadsetMemory {
-  std::optional<XrPlacement> placement;
+  std::optional<XrSpot> spot;
   std::optional<CalibrationValues> body;
 };
 
@@ -50,9 +51,11 @@ struct HeadsetTold {
   CalibrationValues body;
   float t_pose_progress = 0.0f;
   bool awaits_t_pose = false;
-  std::uint32_t tracked = 0;  // a bit for each TrackedPoint
-  bool sees_body = false;     // a whole one
-  std::uint32_t jumps = 0;    // how often the dancer was put elsewhere
+  std::uint32_t tracked = 0;    // a bit for each TrackedPoint
+  bool sees_body = false;       // a whole one
+  std::uint32_t jumps = 0;      // how often the dancer was put elsewhere
+  std::uint32_t recentres = 0;  // of the runtime's space, that the placement is of
+  std::uint32_t lost = 0;       // a bit for each TrackedPoint that was there and is gone for long
   std::array<bool, kXrHands> is_pressed{}, is_menu_pressed{};
 };
 
@@ -82,9 +85,11 @@ class HeadsetCapture {
   void run();
   MonoTime tick(MonoTime now);
   void place(XrTime time, MonoTime moment);
+  // Somebody wears it, as far as can be told.
+  bool is_worn(MonoTime moment);
   void publish(MonoTime captured);
   void tell();
-  void tell_losses(MonoTime now);
+  void note_losses(MonoTime now);
 
   const XrDancerSession& session_;
   XrInput& input_;
@@ -99,14 +104,14 @@ class HeadsetCapture {
   XrSight sight_;
   Pose pose_;
   HeadsetTold now_;
-  std::uint32_t recentres_ = 0;
-  // A point that is gone for long is told once, and once that it is back.
+  std::optional<XrSpot> spot_;  // of the head, newest
+  Eigen::Vector3f rested_at_m_ = Eigen::Vector3f::Zero();
+  MonoTime moved_;  // when the head was last seen to
   std::array<MonoTime, kTrackedPointCount> seen_{};
-  std::uint32_t missed_ = 0;
   FreeSpot others_;
   MonoTime begun_, next_;
   Histogram delay_;  // from the moment asked for to what was published
-  std::uint64_t poses_ = 0, without_head_ = 0;
+  std::uint64_t poses_ = 0, without_head_ = 0, unworn_ = 0;
   Latest<HeadsetTold> told_;
   std::atomic<bool> recentre_asked_{false}, t_pose_asked_{false}, ends_{false};
   std::thread thread_;

@@ -8,6 +8,7 @@
 // Failure:      solve() is false where nothing is known: without a head.
 #pragma once
 
+#include "core/motion/inertializer.h"
 #include "producers/receive/joint_figure.h"
 #include "producers/trackers/tracker_body.h"
 #include "producers/xr/xr_sensors.h"
@@ -25,9 +26,17 @@ class XrDancer {
   const CalibrationValues& values() const { return body_.calibration().values(); }
 
  private:
+  // A body that is not seen for so long is waited for; then the points take over, and back.
+  static constexpr Duration kWaitsForBody = Duration::ms(300);
+
+  bool find(const XrSight& sight, Pose& pose);
+
   TrackerBody body_;
   JointFigure figure_;
-  bool is_figure_ = false;
+  bool is_figure_ = false, has_solved_ = false;
+  MonoTime figure_seen_;
+  Pose last_;  // as solved, without what the bridge adds
+  Inertializer bridge_;
 };
 
 }  // namespace dance

@@ -58,6 +58,10 @@ XrPlace grip_of(const XrHandJoints& joints, XrHand hand) {
           (palm.R * Quaternionf(R_PG)).normalized()};
 }
 
+XrPlace aim_of(const XrHandJoints& joints) {
+  return {joints.at(XR_HAND_JOINT_INDEX_PROXIMAL_EXT).p_m, joints.at(XR_HAND_JOINT_PALM_EXT).R};
+}
+
 void write_fingers(const XrHandJoints& joints, XrHand hand, Hands& out) {
   const std::size_t first = hand == XrHand::kLeft ? 0 : kFingerBoneCount / 2;
   const Quaternionf R_hand = bone_of(joints.at(XR_HAND_JOINT_PALM_EXT).R, hand, false);

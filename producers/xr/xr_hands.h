@@ -25,6 +25,8 @@ struct XrHandJoints {
 
 // Where OpenXR's grip pose is of a controller in that hand.
 XrPlace grip_of(const XrHandJoints& joints, XrHand hand);
+// Where a bare hand points: along its fingers, from the knuckle of the forefinger.
+XrPlace aim_of(const XrHandJoints& joints);
 // The 15 finger bones of that side, present.
 void write_fingers(const XrHandJoints& joints, XrHand hand, Hands& out);
 // Thumb and forefinger touch, which stands for a press.

@@ -26,14 +26,19 @@ constexpr std::array<Role, 8> kRoles{{
 
 std::size_t index_of(XrHand hand) { return static_cast<std::size_t>(hand); }
 
-}  // namespace
-
-std::optional<XrPlace> place_of(const XrSpaceLocation& location, bool must_be_tracked) {
+// Whether the runtime says that there is a place.
+bool is_told(const XrSpaceLocation& location, bool must_be_tracked) {
   constexpr XrSpaceLocationFlags kValid =
       XR_SPACE_LOCATION_POSITION_VALID_BIT | XR_SPACE_LOCATION_ORIENTATION_VALID_BIT;
   const XrSpaceLocationFlags wanted =
       kValid | (must_be_tracked ? XR_SPACE_LOCATION_POSITION_TRACKED_BIT : 0);
-  if ((location.locationFlags & wanted) != wanted) return std::nullopt;
+  return (location.locationFlags & wanted) == wanted;
+}
+
+}  // namespace
+
+std::optional<XrPlace> place_of(const XrSpaceLocation& location, bool must_be_tracked) {
+  if (!is_told(location, must_be_tracked)) return std::nullopt;
   const XrVector3f& p = location.pose.position;
   const XrQuaternionf& R = location.pose.orientation;
   XrPlace place{{p.x, p.y, p.z}, {R.w, R.x, R.y, R.z}};
@@ -226,15 +231,21 @@ void XrInput::sync() {
   info.type = XR_TYPE_ACTIONS_SYNC_INFO;
   info.countActiveActionSets = 1;
   info.activeActionSets = &active;
-  xrSyncActions(session_.handle(), &info);  // where it fails nothing is active
+  // Where it fails nothing is active.
+  if (XR_FAILED(xrSyncActions(session_.handle(), &info))) ++refused_;
 }
 
 std::optional<XrPlace> XrInput::locate(XrSpace space, XrTime time, bool must_be_tracked) const {
   if (space == XR_NULL_HANDLE || time <= 0) return std::nullopt;
   XrSpaceLocation location{};
   location.type = XR_TYPE_SPACE_LOCATION;
-  if (XR_FAILED(xrLocateSpace(space, session_.base(), time, &location))) return std::nullopt;
-  return place_of(location, must_be_tracked);
+  if (XR_FAILED(xrLocateSpace(space, session_.base(), time, &location))) {
+    ++refused_;
+    return std::nullopt;
+  }
+  const auto place = place_of(location, must_be_tracked);
+  if (!place && is_told(location, must_be_tracked)) ++bad_places_;
+  return place;
 }
 
 std::optional<XrPlace> XrInput::head(XrTime time) const {
@@ -262,6 +273,17 @@ bool XrInput::state_of(XrAction action, XrHand hand) const {
   state.type = XR_TYPE_ACTION_STATE_BOOLEAN;
   return XR_SUCCEEDED(xrGetActionStateBoolean(session_.handle(), &info, &state)) &&
          state.isActive == XR_TRUE && state.currentState == XR_TRUE;
+}
+
+bool XrInput::holds(XrHand hand) const {
+  XrActionStateGetInfo info{};
+  info.type = XR_TYPE_ACTION_STATE_GET_INFO;
+  info.action = grip_;
+  info.subactionPath = hands_[index_of(hand)];
+  XrActionStatePose state{};
+  state.type = XR_TYPE_ACTION_STATE_POSE;
+  return XR_SUCCEEDED(xrGetActionStatePose(session_.handle(), &info, &state)) &&
+         state.isActive == XR_TRUE;
 }
 
 bool XrInput::is_pressed(XrHand hand) const { return state_of(press_, hand); }

@@ -11,6 +11,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <atomic>
 #include <optional>
 
 #include "core/base/time.h"
@@ -47,13 +48,18 @@ class XrInput {
   std::optional<XrPlace> grip(XrHand hand, XrTime time) const;
   std::optional<XrPlace> aim(XrHand hand, XrTime time) const;
   std::optional<XrPlace> tracker(TrackedPoint point, XrTime time) const;
-  // As of the last sync().
+  // As of the last sync(). Whether a controller is in that hand, tracked or not.
+  bool holds(XrHand hand) const;
   bool is_pressed(XrHand hand) const;
   bool is_menu_pressed(XrHand hand) const;
 
   // False where the hand has nothing that vibrates.
   bool vibrate(XrHand hand, float amplitude, Duration duration, float frequency_hz) const;
   void stop(XrHand hand) const;
+
+  // Places that could not be true, and calls that the runtime refused.
+  std::uint64_t bad_places() const { return bad_places_.load(std::memory_order_relaxed); }
+  std::uint64_t refused() const { return refused_.load(std::memory_order_relaxed); }
 
  private:
   struct Tracker {
@@ -86,6 +92,7 @@ class XrInput {
   std::array<XrSpace, kXrHands> grips_{}, aims_{};
   std::array<Tracker, kTrackers> trackers_{};
   std::size_t tracker_count_ = 0;
+  mutable std::atomic<std::uint64_t> bad_places_{0}, refused_{0};
 };
 
 }  // namespace dance

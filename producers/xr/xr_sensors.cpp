@@ -14,13 +14,14 @@ constexpr Duration kOldestBody = Duration::ms(300);
 // Points that a body without legs stands for.
 struct PointOfBone {
   TrackedPoint point;
-  Bone bone;
+  Bone place, turn;
 };
+// An elbow is the end of the upper arm, and turns with it.
 constexpr std::array<PointOfBone, 4> kPointsOfBody{
-    {{TrackedPoint::kHips, Bone::kHips},
-     {TrackedPoint::kChest, Bone::kUpperChest},
-     {TrackedPoint::kLeftElbow, Bone::kLeftLowerArm},
-     {TrackedPoint::kRightElbow, Bone::kRightLowerArm}}};
+    {{TrackedPoint::kHips, Bone::kHips, Bone::kHips},
+     {TrackedPoint::kChest, Bone::kUpperChest, Bone::kUpperChest},
+     {TrackedPoint::kLeftElbow, Bone::kLeftLowerArm, Bone::kLeftUpperArm},
+     {TrackedPoint::kRightElbow, Bone::kRightLowerArm, Bone::kRightUpperArm}}};
 
 TrackedPoint point_of(XrHand hand) {
   return hand == XrHand::kLeft ? TrackedPoint::kLeftHand : TrackedPoint::kRightHand;
@@ -32,6 +33,13 @@ Quaternionf XrPlacement::turn() const { return about_up(turn_rad); }
 
 XrPlace XrPlacement::in_house(const XrPlace& in_base) const {
   return {in_house(in_base.p_m), (turn() * in_base.R).normalized()};
+}
+
+std::optional<XrSpot> spot_of(const XrPlace& head) {
+  constexpr float kLeastLevel = 0.3f;
+  const Vector3f looks = head.R * -Vector3f::UnitZ();
+  if (std::hypot(looks.x(), looks.z()) < kLeastLevel) return std::nullopt;
+  return XrSpot{head.p_m.x(), head.p_m.z(), std::atan2(looks.x(), looks.z())};
 }
 
 XrPlacement placement_of(const XrPlace& head_in_base, const XrSpot& spot, float floor_m) {
@@ -81,12 +89,14 @@ void XrSensors::look_at_hands(XrTime time, const XrPlacement& placement, XrSight
     const auto i = static_cast<std::size_t>(hand);
     auto grip = input_.grip(hand, time);
     const auto joints = hands_ ? hands_->see(hand, time) : std::nullopt;
-    // Where a controller is held, some runtimes tell fingers by its buttons.
+    // Where a controller is held, some runtimes tell fingers by its buttons; while it is out of
+    // sight the hand is not bare.
     if (joints) write_fingers(*joints, hand, sight.hands);
-    sight.is_bare[i] = joints && !grip;
+    sight.is_bare[i] = joints && !input_.holds(hand);
     sight.is_pinching[i] = sight.is_bare[i] && is_pinching(*joints);
     if (sight.is_bare[i]) {
       grip = grip_of(*joints, hand);
+      sight.bare_aims_W[i] = placement.in_house(aim_of(*joints));
       sight.fingertips_W_m[i] = placement.in_house(joints->at(XR_HAND_JOINT_INDEX_TIP_EXT).p_m);
     }
     if (!grip) continue;
@@ -114,9 +124,10 @@ void XrSensors::look_at_body(XrTime time, const XrPlacement& placement, XrSight&
   sight.has_figure = body_->has_legs();
   if (sight.has_figure) return;
   for (const PointOfBone& each : kPointsOfBody)
-    if (sight.figure.has(each.bone) && !sight.points.has(each.point))
-      sight.points.put(each.point, sight.figure.p_WB_m[index_of(each.bone)],
-                       sight.figure.R_WB[index_of(each.bone)]);
+    if (sight.figure.has(each.place) && sight.figure.has(each.turn) &&
+        !sight.points.has(each.point))
+      sight.points.put(each.point, sight.figure.p_WB_m[index_of(each.place)],
+                       sight.figure.R_WB[index_of(each.turn)]);
 }
 
 }  // namespace dance

@@ -32,6 +32,8 @@ struct XrPlacement {
 struct XrSpot {
   float x_m = 0.0f, z_m = 0.0f, heading_rad = 0.0f;
 };
+// Below the head, where it looks; nullopt where it looks straight up or down.
+std::optional<XrSpot> spot_of(const XrPlace& head);
 // Puts the head over the spot, looking along its heading; `floor_m` is the floor in the base space.
 XrPlacement placement_of(const XrPlace& head_in_base, const XrSpot& spot, float floor_m);
 
@@ -43,6 +45,7 @@ struct XrSight {
   Hands hands;                           // none: no presence
   std::array<bool, kXrHands> is_bare{};  // the hand is seen, no controller is held
   std::array<bool, kXrHands> is_pinching{};
+  std::array<XrPlace, kXrHands> bare_aims_W{};             // where bare hands point
   std::array<Eigen::Vector3f, kXrHands> fingertips_W_m{};  // of bare hands: the forefingers'
 };
 

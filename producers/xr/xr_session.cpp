@@ -83,7 +83,9 @@ void XrDancerSession::poll() {
     if (event.type == XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING) {
       const auto& change = reinterpret_cast<const XrEventDataReferenceSpaceChangePending&>(event);
       const auto own = has_stage_ ? XR_REFERENCE_SPACE_TYPE_STAGE : XR_REFERENCE_SPACE_TYPE_LOCAL;
-      if (change.referenceSpaceType == own) recentres_.fetch_add(1, std::memory_order_acq_rel);
+      if (change.referenceSpaceType != own) continue;
+      recentre_time_.store(change.changeTime, std::memory_order_release);
+      recentres_.fetch_add(1, std::memory_order_acq_rel);
     }
   }
 }
@@ -106,7 +108,7 @@ void XrDancerSession::take(XrSessionState state) {
     is_running_.store(false, std::memory_order_release);
     note(xrEndSession(session_));
   }
-  if (state == XR_SESSION_STATE_EXITING && over_ == Over::kNot) over_ = Over::kByUser;
+  if (state == XR_SESSION_STATE_EXITING && over_ == Over::kNot) over_ = Over::kEnded;
   if (state == XR_SESSION_STATE_LOSS_PENDING) note(XR_ERROR_SESSION_LOST);
 }
 

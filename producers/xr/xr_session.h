@@ -18,7 +18,8 @@ namespace dance {
 
 class XrDancerSession {
  public:
-  enum class Over { kNot, kLost, kByUser };
+  // kEnded: the runtime has ended it in order, as it does when it is closed or starts anew.
+  enum class Over { kNot, kLost, kEnded };
 
   // `graphics` is the binding of the extension that draws; null for a session without pictures.
   static Result<std::unique_ptr<XrDancerSession>> create(const XrRuntime& runtime,
@@ -44,8 +45,9 @@ class XrDancerSession {
   bool is_focused() const { return is_focused_.load(std::memory_order_acquire); }
   bool is_visible() const { return is_visible_; }
   Over over() const { return over_; }
-  // How often the runtime has said that its spaces were moved.
+  // How often the runtime has said that its base space is moved, and when the last time takes effect.
   std::uint32_t recentres() const { return recentres_.load(std::memory_order_acquire); }
+  XrTime recentre_time() const { return recentre_time_.load(std::memory_order_acquire); }
   std::uint32_t profile_changes() const { return profile_changes_; }
 
  private:
@@ -62,6 +64,7 @@ class XrDancerSession {
   bool is_visible_ = false, is_headless_ = false, was_focused_ = false;
   std::atomic<bool> is_running_{false}, is_focused_{false};
   std::atomic<std::uint32_t> recentres_{0};
+  std::atomic<XrTime> recentre_time_{0};
   std::uint32_t profile_changes_ = 0;
   Over over_ = Over::kNot;
 };

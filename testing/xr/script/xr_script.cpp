@@ -106,9 +106,11 @@ Result<void> apply_line(const Words& words, const std::string& folder, XrScript&
     return {};
   }
   if (verb == "profile") {
-    if (words.size() != 2 || words[1].find('/') == std::string_view::npos)
-      return fail("write 'profile VENDOR/NAME', as profile valve/index_controller");
-    script.profile = "/interaction_profiles/" + std::string(words[1]);
+    const bool is_none = words.size() == 2 && words[1] == "none";
+    if (words.size() != 2 || (!is_none && words[1].find('/') == std::string_view::npos))
+      return fail(
+          "write 'profile VENDOR/NAME', as profile valve/index_controller, or profile none");
+    script.profile = is_none ? "" : "/interaction_profiles/" + std::string(words[1]);
     return {};
   }
   return fail("'" + std::string(verb) +

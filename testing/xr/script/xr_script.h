@@ -9,7 +9,7 @@
 //   body on                            the same as system body on
 //   no stage                           no STAGE space, no bounds
 //   no system [until 2.0]              xrGetSystem: unavailable; seconds since its first call
-//   profile valve/index_controller     what the hands hold (default oculus/touch_controller)
+//   profile valve/index_controller     what the hands hold (default oculus/touch_controller); none
 //   motion FILE                        CSV: seconds,point,x,y,z,qx,qy,qz,qw; beside the script
 //   at T pose POINT x y z qx qy qz qw  a keyframe; linear and slerp between, held before and after
 //   at T lose|guess|find POINT         neither valid nor tracked | valid, not tracked | both

@@ -71,7 +71,7 @@ void choose_profiles(Session& session) {
   std::string hands;
   if (rt.bindings.count(rt.script.profile))
     hands = rt.script.profile;
-  else if (rt.bindings.count(kSimple))
+  else if (!rt.script.profile.empty() && rt.bindings.count(kSimple))
     hands = kSimple;
   for (const char* top : {"/user/hand/left", "/user/hand/right"})
     if (!hands.empty()) session.profiles[top] = hands;
