@@ -1,7 +1,7 @@
-// TrackerBody: a whole body from few tracked points: any of tracker_frame.h with a head among them.
-// It calibrates itself, keeps head and hands where they are measured, and goes on where a point is
-// lost. One guide guesses what is not measured: by rules, or by a network that was trained on dances
-// (`dance trackers train`).
+// TrackerBody: a whole body from few tracked points: any of those in tracker_frame.h with a head
+// among them. It calibrates itself, shows head and hands where they are measured, and goes on where
+// a point is lost. A guide guesses what is not measured: by rules, or by a network that was trained
+// on dances (`dance trackers train`).
 //
 // Units/frames: as tracker_frame.h and core/pose/pose.h. Any rate of frames; times need not be
 //               even.

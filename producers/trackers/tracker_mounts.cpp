@@ -26,7 +26,8 @@ Mount nominal_mount(TrackedPoint point, float height_m) {
     case TrackedPoint::kHead:
       return {scale * Vector3f(0.0f, kEyesUp_m, kEyesForward_m), of_axes(-x, y, -z), true};
     case TrackedPoint::kLeftHand:
-      return {scale * Vector3f(kPalmOut_m, -kPalmDown_m, kPalmForward_m), of_axes(-y, -x, -z), true};
+      return {scale * Vector3f(kPalmOut_m, -kPalmDown_m, kPalmForward_m), of_axes(-y, -x, -z),
+              true};
     case TrackedPoint::kRightHand:
       return {scale * Vector3f(-kPalmOut_m, -kPalmDown_m, kPalmForward_m), of_axes(y, x, -z), true};
     default:

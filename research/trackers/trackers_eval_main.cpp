@@ -40,11 +40,10 @@ Result<void> run_trackers_eval(TrackersEvalWishes& wishes) {
   if (!wishes.show.empty()) return show_trackers(takes.front(), wishes.options, wishes.show);
   std::vector<TrackerTrial> trials;
   for (const int points : {3, 4, 6, 10})
-    for (const TrackerGuide guide :
-         {TrackerGuide::kGeometric, TrackerGuide::kLearned, TrackerGuide::kAutomatic})
+    for (const TrackerGuide guide : {TrackerGuide::kGeometric, TrackerGuide::kLearned})
       trials.push_back({points, guide, TrackerStart::kTPose});
   for (const int points : {3, 6})
-    trials.push_back({points, TrackerGuide::kAutomatic, TrackerStart::kDancing});
+    trials.push_back({points, TrackerGuide::kLearned, TrackerStart::kDancing});
   const auto scores = evaluate_trackers(takes, trials, wishes.options);
   std::fputs(trackers_eval_table(trials, scores).c_str(), stdout);
   return {};

@@ -17,7 +17,7 @@ constexpr const char* kTrackersTrainExamples = R"(Examples:
 struct TrackersTrainWishes {
   std::vector<std::string> files;
   std::string out = "body.model";
-  int bodies = 4;
+  int bodies = 8;
   TrackerFit fit;
 };
 

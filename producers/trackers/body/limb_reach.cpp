@@ -21,6 +21,8 @@ constexpr int kSpineRounds = 8;
 constexpr float kSpineDamping = 2e-4f, kSpineMostTurn_rad = 0.25f;
 constexpr float kMostShoulder_rad = 0.45f;
 constexpr float kStraightest = 0.9995f;
+// A knee that straightens altogether does so at any speed: the heel rises before.
+constexpr float kStraightLeg = 0.992f;
 constexpr float kMostHeel_rad = 1.0f, kMostToes_rad = 1.3f;
 constexpr int kHalvings = 10;
 // The heel's underside from the ankle, of the ankle's height and the foot's length.
@@ -59,6 +61,9 @@ Quaternionf turned_along(const Vector3f& from, const Vector3f& to, const Quatern
 }
 
 void bend_spine(const Skeleton& skeleton, const Vector3f& p_WHead_m, BodyFrames& frames) {
+  const Vector3f chain = along_spine(skeleton, frames) - frames.p_WB_m[0];
+  const Vector3f apart = p_WHead_m - frames.position(Bone::kHead);
+  frames.p_WB_m[0] += chain.dot(apart) / std::max(chain.squaredNorm(), 1e-6f) * chain;
   for (int round = 0; round < kSpineRounds; ++round) {
     const Vector3f left = p_WHead_m - along_spine(skeleton, frames);
     if (left.squaredNorm() < 1e-10f) break;
@@ -137,7 +142,7 @@ void raise_heel(const Vector3f& hip_W_m, float leg_m, const Vector3f& o_ball, Pl
   const Quaternionf R = foot.R_W;
   const auto ankle_at = [&](float pitch) { return Vector3f(ball - R * about_x(pitch) * o_ball); };
   const float pitch = least_enough(kMostHeel_rad, [&](float x) {
-    return (ankle_at(x) - hip_W_m).norm() <= kStraightest * leg_m;
+    return (ankle_at(x) - hip_W_m).norm() <= kStraightLeg * leg_m;
   });
   foot.R_W = (R * about_x(pitch)).normalized();
   foot.p_W_m = ankle_at(pitch);

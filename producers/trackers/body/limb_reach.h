@@ -18,6 +18,8 @@ Eigen::Quaternionf turned_along(const Eigen::Vector3f& from, const Eigen::Vector
 // Turns spine, chest, upper chest and neck, each as little as possible, until the head comes to
 // p_WHead_m; where they cannot, the hips move. Their rotations are in frames.R_WB, the hips' place
 // too; positions up to the head are set.
+// What the spine is too long or too short the hips take at once: bending for that is sudden where
+// the spine is nearly straight, and lengths are known to a centimetre or two only.
 void bend_spine(const Skeleton& skeleton, const Eigen::Vector3f& p_WHead_m, BodyFrames& frames);
 
 // Turns the shoulder, as far as shoulders go, until the arm's reach comes to the target.

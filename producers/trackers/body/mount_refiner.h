@@ -1,6 +1,7 @@
 // MountRefiner: what a T-pose gets wrong of worn trackers, found while they dance: the mean
 // difference, on the bone, between where a guide would have it and where it is measured. A pose
-// that was held badly for a second is off by centimetres; a dance is not, in the mean.
+// that was held badly for a second is off by centimetres; a dance is not, in the mean. While a
+// dancer stands about nothing is learnt: that is one pose, too, and the guide may be wrong about it.
 //
 // Units/frames: on each bone, metres and rotation vectors.
 // Ownership:    plain value; never allocates.
@@ -9,6 +10,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/motion/rotation_vector.h"
 #include "producers/trackers/body/body_guide.h"
@@ -21,6 +23,12 @@ class MountRefiner {
 
   // The guess must have been made from these very bones.
   void observe(const BonePlaces& bones, const BodyGuess& guess, float seconds) {
+    const Eigen::Vector3f head = bones.of(TrackedPoint::kHead).p_W_m;
+    const float speed_m_s = seconds > 0.0f ? (head - head_m_).norm() / seconds : 0.0f;
+    head_m_ = head;
+    if (speed_m_s > kFastest_m_s) return;
+    speed_m_s_ += (1.0f - std::exp(-seconds / kSpeed_s)) * (speed_m_s - speed_m_s_);
+    if (speed_m_s_ < kDances_m_s) return;
     for (std::size_t i = 0; i < kTrackedPointCount; ++i) {
       if ((bones.presence >> i & 1u) == 0 || !is_refined(i)) continue;
       Found& found = found_[i];
@@ -52,6 +60,7 @@ class MountRefiner {
     float seen_s = 0.0f;
   };
 
+  static constexpr float kDances_m_s = 0.2f, kFastest_m_s = 10.0f, kSpeed_s = 1.0f;
   static constexpr float kDoubt_s = 4.0f, kMostSeen_s = 60.0f;
   static constexpr float kMostShift_m = 0.1f, kMostTurn_rad = 0.35f;
 
@@ -70,6 +79,8 @@ class MountRefiner {
   }
 
   std::array<Found, kTrackedPointCount> found_;
+  Eigen::Vector3f head_m_ = Eigen::Vector3f::Zero();
+  float speed_m_s_ = 0.0f;  // of the head
 };
 
 }  // namespace dance

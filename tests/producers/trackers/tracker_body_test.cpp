@@ -109,6 +109,18 @@ TEST_P(EachGuide, FeetStandWhileTheBodySways) {
   EXPECT_LT(way, 0.05f) << "m in five seconds";
 }
 
+TEST_P(EachGuide, MeasuredFeetOfSomebodyWhoStandsAboutStayWhereTheyAre) {
+  const WornPoints worn(average_skeleton(), kSixPoints);
+  const double began = stand_in_t_pose(solver_, worn);
+  Pose solved;
+  const BodyFrames truth = frames_of(worn.body, standing(worn.body));
+  for (double t = 0.0; t < 20.0; t += 1.0 / 60.0)
+    solver_.solve(worn.see(swaying(worn.body, 0.3 * t), at_seconds(began + t)), solved);
+  const BodyFrames body = frames_of(solver_.skeleton(), solved);
+  for (const Bone foot : {Bone::kLeftFoot, Bone::kRightFoot})
+    EXPECT_LT(std::abs(body.position(foot).z() - truth.position(foot).z()), 0.02f);
+}
+
 TEST_P(EachGuide, FeetFollowADancerWhoWalksOn) {
   const WornPoints worn(average_skeleton(), kThreePoints);
   const double began = stand_in_t_pose(solver_, worn);

@@ -10,6 +10,18 @@ namespace {
 
 using Eigen::Vector3f;
 
+TEST(TrackerMounts, HandsHoldGripPosesAsOpenXrSays) {
+  // In T-pose, facing +Z, palms are down and thumbs ahead.
+  const Place left = device_place(nominal_mount(TrackedPoint::kLeftHand, 1.72f), Place());
+  const Place right = device_place(nominal_mount(TrackedPoint::kRightHand, 1.72f), Place());
+  EXPECT_TRUE((left.R_W * Vector3f::UnitX()).isApprox(-Vector3f::UnitY())) << "out of the palm";
+  EXPECT_TRUE((right.R_W * Vector3f::UnitX()).isApprox(Vector3f::UnitY())) << "out of the back";
+  for (const Place& hand : {left, right})
+    EXPECT_TRUE((hand.R_W * -Vector3f::UnitZ()).isApprox(Vector3f::UnitZ())) << "to the thumb";
+  EXPECT_GT(left.p_W_m.x(), 0.05f);
+  EXPECT_LT(right.p_W_m.x(), -0.05f);
+}
+
 // In T-pose the model of the body is the body itself, so that what is found is exact but for feet,
 // which people do not put quite parallel.
 TEST(TrackerCalibration, ATPoseFindsHeightAndMounts) {
