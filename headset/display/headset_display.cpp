@@ -56,14 +56,23 @@ void HeadsetDisplay::hear() {
 
 Result<void> HeadsetDisplay::turn() {
   const XrFrames::Turn turn = frames_->begin([] { return mono_now(); });
-  if (!turn.is_begun) return {};
+  if (!turn.is_begun) {
+    window_.poll_events();
+    return frames_->health();
+  }
   hear();
   bool is_drawn = false;
   Result<void> drawn{};
   if (turn.is_to_draw && told_.is_placed && frames_->locate(turn, eyes_))
     drawn = draw(turn, is_drawn);
   frames_->end(turn, is_drawn ? &eyes_ : nullptr);
-  return drawn;
+  // What others see comes after what the dancer sees: a desk's monitor may hold it up.
+  window_.poll_events();
+  if (is_drawn) {
+    show_in_window();
+    scene_.report(turn.seen_at);
+  }
+  return drawn ? frames_->health() : drawn;
 }
 
 StageEye HeadsetDisplay::stage_eye(const XrEye& eye) const {
@@ -82,7 +91,9 @@ Result<void> HeadsetDisplay::draw(const XrFrames::Turn& turn, bool& is_drawn) {
   StereoWishes wishes;
   wishes.own = options_.own;
   wishes.comfort = options_.comfort;
-  wishes.darkness = fade_.darkness(taken);
+  // While the runtime's space is another one than the capture has heard of, nothing is in its place.
+  const bool is_elsewhere = session_.recentres() != told_.recentres;
+  wishes.darkness = is_elsewhere ? 1.0f : fade_.darkness(taken);
   wishes.tags = options_.tags;
   const std::array<StageEye, 2> eyes{stage_eye(eyes_[0]), stage_eye(eyes_[1])};
   if (auto prepared = painter_.prepare(scene, eyes, frames_->width_px(), frames_->height_px(),
@@ -103,13 +114,10 @@ Result<void> HeadsetDisplay::draw(const XrFrames::Turn& turn, bool& is_drawn) {
   }
   glFlush();
   drawing_.add(mono_now() - taken);
-  show_in_window();
-  scene_.report(turn.seen_at);
   return {};
 }
 
 void HeadsetDisplay::show_in_window() {
-  window_.poll_events();
   const MonoTime now = mono_now();
   if (!window_.is_shown() || now - shown_ < shown_every_) return;
   shown_ = now;
@@ -133,24 +141,31 @@ PanelWords HeadsetDisplay::words_of(const SceneState& scene) const {
   return words;
 }
 
-void HeadsetDisplay::use_panel(const XrFrames::Turn& turn, const SceneState& scene, MonoTime now) {
+WristPanel::Input HeadsetDisplay::panel_input(const XrFrames::Turn& turn) const {
   WristPanel::Input input;
-  const auto in_house = [&](const std::optional<XrPlace>& place) {
-    std::optional<Eigen::Isometry3f> X;
-    if (place) X = isometry_of(told_.placement.in_house(*place));
-    return X;
-  };
-  input.eyes_W_m = told_.placement.in_house(
-      Eigen::Vector3f(0.5f * (eyes_[0].in_base.p_m + eyes_[1].in_base.p_m)));
+  const XrPlacement& placement = told_.placement;
+  input.eyes_W_m =
+      placement.in_house(Eigen::Vector3f(0.5f * (eyes_[0].in_base.p_m + eyes_[1].in_base.p_m)));
+  input.looks_W = placement.in_house(eyes_[0].in_base).R * -Eigen::Vector3f::UnitZ();
   if (sight_.points.has(TrackedPoint::kLeftHand))
     input.left_grip_W = isometry_of({sight_.points.position(TrackedPoint::kLeftHand),
                                      sight_.points.rotation(TrackedPoint::kLeftHand)});
-  input.right_aim_W = in_house(input_.aim(XrHand::kRight, turn.display_time));
-  input.is_pressed = told_.is_pressed[at(XrHand::kRight)] || sight_.is_pinching[at(XrHand::kRight)];
-  if (sight_.is_bare[at(XrHand::kRight)])
-    input.fingertip_W_m = sight_.fingertips_W_m[at(XrHand::kRight)];
-  input.menu_pressed =
-      told_.is_menu_pressed[at(XrHand::kLeft)] || told_.is_menu_pressed[at(XrHand::kRight)];
+  const std::size_t right = at(XrHand::kRight);
+  if (sight_.is_bare[right]) {
+    input.fingertip_W_m = sight_.fingertips_W_m[right];
+    input.right_aim_W = isometry_of(sight_.bare_aims_W[right]);
+    input.is_pressed = sight_.is_pinching[right];
+  } else {
+    if (const auto aim = input_.aim(XrHand::kRight, turn.display_time))
+      input.right_aim_W = isometry_of(placement.in_house(*aim));
+    input.is_pressed = told_.is_pressed[right];
+  }
+  input.menu_pressed = told_.is_menu_pressed[at(XrHand::kLeft)] || told_.is_menu_pressed[right];
+  return input;
+}
+
+void HeadsetDisplay::use_panel(const XrFrames::Turn& turn, const SceneState& scene, MonoTime now) {
+  const WristPanel::Input input = panel_input(turn);
   const auto action = panel_.update(input, now);
   if (!action) return;
   // A press is felt.

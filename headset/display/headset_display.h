@@ -51,6 +51,7 @@ class HeadsetDisplay {
   Result<void> draw(const XrFrames::Turn& turn, bool& is_drawn);
   void hear();
   void use_panel(const XrFrames::Turn& turn, const SceneState& scene, MonoTime now);
+  WristPanel::Input panel_input(const XrFrames::Turn& turn) const;
   PanelWords words_of(const SceneState& scene) const;
   StageEye stage_eye(const XrEye& eye) const;
   void show_in_window();

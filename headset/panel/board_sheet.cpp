@@ -233,7 +233,6 @@ void BoardSheet::append_panel(const WristPanel& panel, std::vector<Board>& board
   board.u1 = kPanelWidth_px / kSheetWidth_px;
   board.v1 = kPanelHeight_px / kSheetHeight_px;
   board.opacity = panel.opacity();
-  board.is_over_all = true;
   boards.push_back(board);
 }
 

@@ -16,10 +16,12 @@ constexpr float kOverBack_m = 0.07f, kTowardsWrist_m = 0.05f;
 // It shows while its face is turned to the eyes, near enough to be read; a turn of the hand in the
 // dance does not show it.
 constexpr float kShows_cos = 0.82f, kHides_cos = 0.70f;
+constexpr float kLooksAt_cos = 0.90f, kLooksAway_cos = 0.77f;
+constexpr Duration kLooksFor = Duration::ms(250);
 constexpr float kFarthest_m = 0.75f;
 constexpr float kFade_s = 0.15f;
 constexpr float kTouch_m = 0.012f;  // before the panel, and as far again behind it
-constexpr float kBehind_m = 0.05f;
+constexpr float kNear_m = 0.05f, kBehind_m = 0.05f;
 constexpr float kLongestRay_m = 1.5f;
 constexpr Duration kHoldToLeave = Duration::ms(900);
 
@@ -48,40 +50,48 @@ void WristPanel::place(const Input& input) {
       grip.translation() + kOverBack_m * to_eyes + kTowardsWrist_m * grip.linear().col(1);
 }
 
+// Turned to the eyes, and in the middle of what they see: a hand on a partner's shoulder is not.
 bool WristPanel::is_looked_at(const Input& input) const {
   const Vector3f to_eyes = input.eyes_W_m - board_.centre_W_m;
   const float distance = to_eyes.norm();
   if (distance > kFarthest_m || distance < 1e-3f) return false;
+  const bool is_shown = opacity_ > 0.0f;
   const float cosine = to_eyes.dot(board_.axes_W.col(2)) / distance;
-  return cosine > (opacity_ > 0.0f ? kHides_cos : kShows_cos);
+  const float ahead = -to_eyes.dot(input.looks_W) / distance;
+  return cosine > (is_shown ? kHides_cos : kShows_cos) &&
+         ahead > (is_shown ? kLooksAway_cos : kLooksAt_cos);
 }
 
-std::optional<Vector2f> WristPanel::point_at(const Input& input, bool& presses) const {
-  const Vector3f normal = board_.axes_W.col(2);
-  Vector3f at;
-  presses = input.is_pressed;
-  if (input.fingertip_W_m) {
-    // Behind it too, so that one that went through does not press again on its way back.
-    const float before = normal.dot(*input.fingertip_W_m - board_.centre_W_m);
-    presses = before < kTouch_m;
-    if (before > 4.0f * kTouch_m || before < -kBehind_m) return std::nullopt;
-    at = *input.fingertip_W_m;
-  } else if (input.right_aim_W) {
-    const Vector3f from = input.right_aim_W->translation();
-    const Vector3f along = -input.right_aim_W->linear().col(2);
-    const float towards = -normal.dot(along);
-    if (towards < 0.05f) return std::nullopt;
-    const float distance = normal.dot(from - board_.centre_W_m) / towards;
-    if (distance < 0.0f || distance > kLongestRay_m) return std::nullopt;
-    at = from + distance * along;
-  } else {
-    return std::nullopt;
-  }
-  const Vector3f off = at - board_.centre_W_m;
+std::optional<Vector2f> WristPanel::place_on(const Vector3f& at_W_m) const {
+  const Vector3f off = at_W_m - board_.centre_W_m;
   const Vector2f on(0.5f + off.dot(board_.axes_W.col(0)) / kWidth_m,
                     0.5f - off.dot(board_.axes_W.col(1)) / kHeight_m);
   if ((on.array() < 0.0f).any() || (on.array() > 1.0f).any()) return std::nullopt;
   return on;
+}
+
+std::optional<Vector2f> WristPanel::touched_at(const Input& input, bool& presses) const {
+  if (!input.fingertip_W_m) return std::nullopt;
+  // Behind it too, so that one that went through does not press again on its way back.
+  const float before = board_.axes_W.col(2).dot(*input.fingertip_W_m - board_.centre_W_m);
+  if (before > kNear_m || before < -kBehind_m) return std::nullopt;
+  presses = before < kTouch_m;
+  return place_on(*input.fingertip_W_m);
+}
+
+std::optional<Vector2f> WristPanel::point_at(const Input& input, bool& presses) const {
+  presses = input.is_pressed;
+  if (const auto touched = touched_at(input, presses)) return touched;
+  presses = input.is_pressed;
+  if (!input.right_aim_W) return std::nullopt;
+  const Vector3f normal = board_.axes_W.col(2);
+  const Vector3f from = input.right_aim_W->translation();
+  const Vector3f along = -input.right_aim_W->linear().col(2);
+  const float towards = -normal.dot(along);
+  if (towards < 0.05f) return std::nullopt;
+  const float distance = normal.dot(from - board_.centre_W_m) / towards;
+  if (distance < 0.0f || distance > kLongestRay_m) return std::nullopt;
+  return place_on(from + distance * along);
 }
 
 float WristPanel::held(PanelAction action) const { return holding_ == action ? held_ : 0.0f; }
@@ -92,7 +102,12 @@ std::optional<PanelAction> WristPanel::update(const Input& input, MonoTime now) 
   if (input.menu_pressed && !was_menu_) is_open_ = !is_open_;
   was_menu_ = input.menu_pressed;
   if (input.left_grip_W) place(input);
-  const bool shows = input.left_grip_W && (is_open_ || is_looked_at(input));
+  if (!input.left_grip_W || !is_looked_at(input))
+    looked_since_ = MonoTime();
+  else if (!looked_since_.is_set())
+    looked_since_ = now;
+  const bool is_meant = looked_since_.is_set() && now - looked_since_ >= kLooksFor;
+  const bool shows = input.left_grip_W && (is_open_ || is_meant);
   const float step = std::clamp(dt_s, 0.0f, kFade_s) / kFade_s;
   opacity_ = std::clamp(opacity_ + (shows ? step : -step), 0.0f, 1.0f);
 

@@ -36,12 +36,13 @@ class WristPanel {
 
   struct Input {
     Eigen::Vector3f eyes_W_m = Eigen::Vector3f::Zero();
+    Eigen::Vector3f looks_W = -Eigen::Vector3f::UnitZ();  // straight ahead of the head
     // OpenXR's grip pose of the left hand.
     std::optional<Eigen::Isometry3f> left_grip_W;
     // The right hand: a ray that it points along (-Z of its aim pose) …
     std::optional<Eigen::Isometry3f> right_aim_W;
     bool is_pressed = false;
-    // … or the tip of a bare forefinger, which presses by touching.
+    // … or, near the panel, the tip of a bare forefinger, which presses by touching.
     std::optional<Eigen::Vector3f> fingertip_W_m;
     bool menu_pressed = false;  // shows it wherever the hand is, and hides it again
   };
@@ -63,7 +64,9 @@ class WristPanel {
  private:
   void place(const Input& input);
   bool is_looked_at(const Input& input) const;
+  std::optional<Eigen::Vector2f> touched_at(const Input& input, bool& presses) const;
   std::optional<Eigen::Vector2f> point_at(const Input& input, bool& presses) const;
+  std::optional<Eigen::Vector2f> place_on(const Eigen::Vector3f& at_W_m) const;
 
   PanelBoard board_;
   float opacity_ = 0.0f;
@@ -72,6 +75,7 @@ class WristPanel {
   std::optional<Eigen::Vector2f> pointer_;
   std::optional<PanelAction> holding_;
   MonoTime holding_since_, last_;
+  MonoTime looked_since_;  // not set: not looked at
   float held_ = 0.0f;
 };
 

@@ -70,7 +70,6 @@ void BoardPainter::draw(const StageEye& eye, std::span<const Board> boards,
   glDepthMask(GL_FALSE);
   for (const Board& board : boards) {
     if (board.opacity <= 0.0f) continue;
-    (board.is_over_all ? glDisable : glEnable)(GL_DEPTH_TEST);
     set_uniform(board_, "u_centre", board.centre_W_m);
     set_uniform(board_, "u_right", Eigen::Vector3f(0.5f * board.width_m * board.axes_W.col(0)));
     set_uniform(board_, "u_up", Eigen::Vector3f(0.5f * board.height_m * board.axes_W.col(1)));

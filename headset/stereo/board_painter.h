@@ -21,7 +21,6 @@ struct Board {
   float width_m = 0.1f, height_m = 0.1f;
   float u0 = 0.0f, v0 = 0.0f, u1 = 1.0f, v1 = 1.0f;  // its picture on the sheet
   float opacity = 1.0f;
-  bool is_over_all = false;  // never behind anything, as what belongs to the own hand
 };
 
 class BoardPainter {

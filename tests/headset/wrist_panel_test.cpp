@@ -61,7 +61,7 @@ class WristPanelTest : public ::testing::Test {
     }
   }
   void show() {
-    turn(Duration::ms(300));
+    turn(Duration::ms(600));
     ASSERT_EQ(panel_.opacity(), 1.0f);
   }
   void aim_at(const Vector3f& point_m) { input_.right_aim_W = ray({0.3f, 1.2f, -0.1f}, point_m); }
@@ -90,7 +90,9 @@ TEST_F(WristPanelTest, IsAboveTheBackOfTheWristUprightForWhoLooksAtIt) {
 }
 
 TEST_F(WristPanelTest, OpensByLookingAtItAndFadesWhenTheHandIsTurnedAway) {
-  turn(Duration::ms(50));
+  turn(Duration::ms(200));
+  EXPECT_EQ(panel_.opacity(), 0.0f) << "a glance is not enough";
+  turn(Duration::ms(120));
   EXPECT_GT(panel_.opacity(), 0.0f);
   EXPECT_LT(panel_.opacity(), 1.0f) << "it fades in";
   show();
@@ -109,6 +111,14 @@ TEST_F(WristPanelTest, OpensByLookingAtItAndFadesWhenTheHandIsTurnedAway) {
   EXPECT_EQ(panel_.opacity(), 0.0f);
   turn_hand(0.7f);
   EXPECT_EQ(panel_.opacity(), 0.0f) << "it opens later than it closes";
+}
+
+TEST_F(WristPanelTest, AHandOnAPartnersShoulderShowsNoPanel) {
+  input_.looks_W = Vector3f(-0.8f, 0.0f, -0.6f);  // past it, at the partner
+  turn(Duration::s(1));
+  EXPECT_EQ(panel_.opacity(), 0.0f);
+  input_.looks_W = -Vector3f::UnitZ();
+  show();
 }
 
 TEST_F(WristPanelTest, IsHiddenFarAwayTurnedAwayAndWithoutAHand) {
