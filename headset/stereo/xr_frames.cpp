@@ -16,6 +16,7 @@ constexpr XrDuration kLongestWait_ns = 200'000'000;
 constexpr int kMostWaits = 10;
 // A picture is seen within these of its beginning, else the time is none.
 constexpr Duration kSoonest = -Duration::ms(50), kLatest = Duration::ms(400);
+constexpr Duration kLongPast = -Duration::ms(500);  // no machine is so late
 constexpr auto kStereo = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
 
 }  // namespace
@@ -137,11 +138,16 @@ XrFrames::Turn XrFrames::begin(const std::function<MonoTime()>& now) {
   const MonoTime present = now();
   turn.seen_at = session_.runtime().mono_of(turn.display_time);
   const Duration until = turn.seen_at - present;
-  if (!turn.seen_at.is_set() || until < kSoonest || until > kLatest) {
-    ++bad_times_;
+  const bool is_past = turn.seen_at.is_set() && until < kSoonest;
+  const bool is_none = !turn.seen_at.is_set() || until > kLatest;
+  turn.promised = turn.display_time;
+  if (is_past || is_none) {
     turn.seen_at = present + period_;
     turn.display_time = session_.runtime().xr_of(turn.seen_at);
   }
+  // Of a picture that is late, as on a busy machine, the runtime wants to hear its own time.
+  if (is_none) turn.promised = turn.display_time;
+  if (is_none || (is_past && until < kLongPast)) ++bad_times_;
   return turn;
 }
 
@@ -211,7 +217,7 @@ void XrFrames::end(const Turn& turn, const std::array<XrEye, kXrEyes>* eyes) {
   const auto* layer = reinterpret_cast<const XrCompositionLayerBaseHeader*>(&projection);
   XrFrameEndInfo info{};
   info.type = XR_TYPE_FRAME_END_INFO;
-  info.displayTime = turn.display_time;
+  info.displayTime = turn.promised;
   info.environmentBlendMode = blend_;
   if (eyes != nullptr) {
     for (std::size_t i = 0; i < kXrEyes; ++i) {

@@ -39,8 +39,9 @@ class XrFrames {
   struct Turn {
     bool is_begun = false;    // end() must follow
     bool is_to_draw = false;  // somebody looks
-    XrTime display_time = 0;
-    MonoTime seen_at;  // display_time in this house's clock, or about when it must be
+    XrTime display_time = 0;  // that it is drawn for
+    XrTime promised = 0;      // for end(): as the runtime said it, where that can be
+    MonoTime seen_at;         // display_time in this house's clock
   };
   Turn begin(const std::function<MonoTime()>& now);
   // False: they are not known, and nothing is to be shown.
