@@ -125,9 +125,9 @@ Result<std::unique_ptr<House>> House::open(const HouseConfig& session, Poller& p
   return house;
 }
 
-bool House::has_headset_left() const {
-  return std::any_of(headsets_.begin(), headsets_.end(),
-                     [](const auto& headset) { return headset->has_left(); });
+bool House::have_headsets_left() const {
+  return !headsets_.empty() && std::all_of(headsets_.begin(), headsets_.end(),
+                                           [](const auto& headset) { return headset->has_left(); });
 }
 
 House::~House() {

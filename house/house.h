@@ -43,8 +43,8 @@ class House {
   House& operator=(const House&) = delete;
 
   Bus& bus() { return *bus_; }
-  // A dancer with a headset has left by its panel or its own menu.
-  bool has_headset_left() const;
+  // There are dancers with headsets, and all of them have left by their panels.
+  bool have_headsets_left() const;
   bool is_connected() const { return link_ && link_->is_connected(); }
   // What the house counted, as one JSON object: per remote guest, link and manager.
   std::string report_json(MonoTime now);

@@ -235,7 +235,7 @@ Result<void> run_join(JoinOptions options) {
   }
   // As when a window is closed.
   poller->add_timer(mono_now() + Duration::ms(200), [&](MonoTime now) {
-    if (!house->has_headset_left()) return now + Duration::ms(200);
+    if (!house->have_headsets_left()) return now + Duration::ms(200);
     poller->stop();
     return MonoTime();
   });

@@ -15,7 +15,7 @@
 namespace dance {
 
 struct ComfortSettings {
-  float personal_space_m = 0.45f;  // 0: none
+  float personal_space_m = 0.25f;  // 0: none; couples dance near
   float floor_m = 8.0f;            // where the floor has faded out, from the dancer
 };
 

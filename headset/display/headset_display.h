@@ -42,6 +42,7 @@ class HeadsetDisplay {
   Result<void> turn();
   // The dancer pressed Leave.
   bool has_left() const { return has_left_; }
+  const HeadsetTold& told() const { return told_; }
   std::string summary() const;
 
  private:

@@ -6,6 +6,7 @@
 #include "core/program/talk.h"
 #include "headset/display/headset_display.h"
 #include "headset/program/headset_run.h"
+#include "headset/program/loss_words.h"
 #include "headset/stereo/xr_graphics.h"
 #include "viewer/avatar/user_avatars.h"
 #include "viewer/gl/offscreen.h"
@@ -41,7 +42,11 @@ class StereoShow final : public HeadsetShow {
     return {};
   }
 
-  Result<void> turn() override { return display_->turn(); }
+  Result<void> turn() override {
+    const auto turned = display_->turn();
+    losses_.tell(display_->told().lost);
+    return turned;
+  }
 
   void end() override {
     if (!display_) return;
@@ -55,6 +60,7 @@ class StereoShow final : public HeadsetShow {
     std::this_thread::sleep_for(std::chrono::nanoseconds(longest.count_ns()));
   }
   bool is_over() const override { return source_->is_over() || window_->is_over(); }
+  bool was_asked_to_end() const override { return source_->is_over(); }
   bool has_left() const override { return display_ ? display_->has_left() : has_left_; }
   std::string summary() const override { return summary_; }
 
@@ -98,6 +104,7 @@ class StereoShow final : public HeadsetShow {
   std::unique_ptr<HeadsetScene> scene_;
   std::unique_ptr<XrGraphics> graphics_;
   std::unique_ptr<HeadsetDisplay> display_;
+  LossWords losses_;
   std::string summary_;
   bool has_left_ = false;
 };

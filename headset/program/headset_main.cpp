@@ -1,5 +1,7 @@
 // dance headset: dances with a headset, its controllers and trackers, and shows the stage in it.
 
+#include <cstdlib>
+
 #include "core/program/program.h"
 #include "haptics/haptic_table.h"
 #include "headset/program/headset_run.h"
@@ -25,7 +27,7 @@ struct Wishes {
   std::string at = "0,0,0";
   std::vector<std::string> felt;
   bool no_haptics = false, no_mirror = false, no_tags = false;
-  double scale = 1.0, personal_space_m = 0.45, floor_m = 8.0;
+  double scale = 1.0, personal_space_m = 0.25, floor_m = 8.0;
 };
 
 Result<void> finish(Wishes& wishes) {
@@ -98,6 +100,8 @@ void add_options(CommandLine& line, Wishes& wishes) {
 }
 
 Result<void> run_headset(const HeadsetOptions& options) {
+  // What the loader says of each try is said in one line here.
+  setenv("XR_LOADER_DEBUG", "none", 0);  // NOLINT(concurrency-mt-unsafe): the first thread
   DANCE_TRY(const auto show,
             options.tracking_only ? make_tracking_show() : make_stereo_show(options));
   HeadsetRun run(options, *show);

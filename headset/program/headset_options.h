@@ -19,7 +19,7 @@ struct HeadsetOptions {
   bool tracking_only = false;
   bool is_mirrored = true;  // a window on the desk shows it
   float scale = 1.0f;       // of the pictures, times what the headset recommends
-  float personal_space_m = 0.45f;
+  float personal_space_m = 0.25f;
   float floor_m = 8.0f;
   bool tags = true;
   // Plainly: without antialiasing and mirror images, as where there is no graphics card.

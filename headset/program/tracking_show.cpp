@@ -1,4 +1,5 @@
 #include "headset/program/headset_run.h"
+#include "headset/program/loss_words.h"
 
 namespace dance {
 namespace {
@@ -14,7 +15,7 @@ class TrackingShow final : public HeadsetShow {
   }
   // Nothing is drawn: the capture has its own thread.
   Result<void> turn() override {
-    capture_->told();
+    if (const HeadsetTold* told = capture_->told()) losses_.tell(told->lost);
     wait(Duration::ms(20));
     return {};
   }
@@ -26,6 +27,7 @@ class TrackingShow final : public HeadsetShow {
  private:
   std::unique_ptr<Poller> poller_;
   HeadsetCapture* capture_ = nullptr;
+  LossWords losses_;
 };
 
 }  // namespace

@@ -3,7 +3,9 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <thread>
 // The structures of OpenGL's images are behind a platform's headers, which this file does without.
 #define XR_USE_GRAPHICS_API_OPENGL
 #include <openxr/openxr_platform.h>
@@ -14,6 +16,8 @@ namespace {
 constexpr float kLeastScale = 0.25f, kMostScale = 2.0f;
 constexpr XrDuration kLongestWait_ns = 200'000'000;
 constexpr int kMostWaits = 10;
+constexpr int kMostRefused = 50;
+constexpr std::chrono::milliseconds kAfterRefusal(10);
 // A picture is seen within these of its beginning, else the time is none.
 constexpr Duration kSoonest = -Duration::ms(50), kLatest = Duration::ms(400);
 constexpr Duration kLongPast = -Duration::ms(500);  // no machine is so late
@@ -116,6 +120,23 @@ Result<void> XrFrames::make_chain(Chain& chain, std::int64_t format) const {
   return {};
 }
 
+bool XrFrames::take(XrResult result, const char* call) {
+  session_.note(result);
+  if (XR_SUCCEEDED(result)) return true;
+  ++refused_in_a_row_;
+  refusal_ = result;
+  refused_call_ = call;
+  // A runtime that refuses at once would keep a core busy.
+  std::this_thread::sleep_for(kAfterRefusal);
+  return false;
+}
+
+Result<void> XrFrames::health() const {
+  if (refused_in_a_row_ < kMostRefused) return {};
+  return fail(std::string("the headset's runtime takes no pictures (") + refused_call_ + ": " +
+              name_of(refusal_) + ")");
+}
+
 XrFrames::Turn XrFrames::begin(const std::function<MonoTime()>& now) {
   Turn turn;
   XrFrameState state{};
@@ -123,13 +144,11 @@ XrFrames::Turn XrFrames::begin(const std::function<MonoTime()>& now) {
   XrFrameWaitInfo wait{};
   wait.type = XR_TYPE_FRAME_WAIT_INFO;
   const XrResult waited = xrWaitFrame(session_.handle(), &wait, &state);
-  session_.note(waited);
-  if (XR_FAILED(waited)) return turn;
+  if (!take(waited, "xrWaitFrame")) return turn;
   XrFrameBeginInfo begin{};
   begin.type = XR_TYPE_FRAME_BEGIN_INFO;
   const XrResult begun = xrBeginFrame(session_.handle(), &begin);
-  session_.note(begun);
-  if (XR_FAILED(begun)) return turn;
+  if (!take(begun, "xrBeginFrame")) return turn;
   turn.is_begun = true;
   turn.is_to_draw = state.shouldRender == XR_TRUE;
   turn.display_time = state.predictedDisplayTime;
@@ -229,9 +248,10 @@ void XrFrames::end(const Turn& turn, const std::array<XrEye, kXrEyes>* eyes) {
     }
     info.layerCount = 1;
     info.layers = &layer;
-    ++pictures_;
   }
-  session_.note(xrEndFrame(session_.handle(), &info));
+  if (!take(xrEndFrame(session_.handle(), &info), "xrEndFrame")) return;
+  refused_in_a_row_ = 0;
+  if (eyes != nullptr) ++pictures_;
 }
 
 }  // namespace dance

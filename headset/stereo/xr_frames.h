@@ -53,6 +53,8 @@ class XrFrames {
   // With what was drawn, or with nothing.
   void end(const Turn& turn, const std::array<XrEye, kXrEyes>* eyes);
 
+  // An error where the runtime has refused pictures for so long that the dancer sees none.
+  Result<void> health() const;
   std::uint64_t bad_times() const { return bad_times_; }
   std::uint64_t pictures() const { return pictures_; }
   Duration period() const { return period_; }
@@ -64,6 +66,8 @@ class XrFrames {
   };
 
   explicit XrFrames(XrDancerSession& session) : session_(session) {}
+  // A call whose refusal is no lost session; true where it was taken.
+  bool take(XrResult result, const char* call);
   Result<void> open(float scale);
   Result<std::int64_t> choose_format() const;
   XrEnvironmentBlendMode choose_blend() const;
@@ -75,6 +79,9 @@ class XrFrames {
   std::array<Chain, kXrEyes> chains_{};
   Duration period_ = Duration::us(11'111);
   std::uint64_t bad_times_ = 0, pictures_ = 0;
+  int refused_in_a_row_ = 0;
+  XrResult refusal_ = XR_SUCCESS;
+  const char* refused_call_ = "";
 };
 
 }  // namespace dance

@@ -51,11 +51,15 @@ std::string text_of_array(const char (&text)[kSize]) {
 }  // namespace
 
 Result<std::unique_ptr<XrRuntime>> XrRuntime::open(XrUse use) {
+  DANCE_TRY(auto runtime, start(use));
+  if (auto found = runtime->find_headset(); !found) return tl::make_unexpected(found.error());
+  return runtime;
+}
+
+Result<std::unique_ptr<XrRuntime>> XrRuntime::start(XrUse use) {
   std::unique_ptr<XrRuntime> runtime(new XrRuntime(use));
-  for (const auto step :
-       {&XrRuntime::create_instance, &XrRuntime::find_clock, &XrRuntime::find_system})
+  for (const auto step : {&XrRuntime::create_instance, &XrRuntime::find_clock})
     if (auto done = (runtime.get()->*step)(); !done) return tl::make_unexpected(done.error());
-  runtime->look_at_system();
   return runtime;
 }
 
@@ -117,14 +121,17 @@ Result<void> XrRuntime::find_clock() {
   return {};
 }
 
-Result<void> XrRuntime::find_system() {
+Result<void> XrRuntime::find_headset() {
   XrSystemGetInfo info{};
   info.type = XR_TYPE_SYSTEM_GET_INFO;
   info.formFactor = XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY;
   const XrResult found = xrGetSystem(instance_, &info, &system_);
   if (found == XR_ERROR_FORM_FACTOR_UNAVAILABLE)
     return fail("the headset is asleep or not connected: put it on, or plug it in");
-  return checked(found, "a headset");
+  is_lost_ = XR_FAILED(found);
+  if (is_lost_) return checked(found, "a headset");
+  look_at_system();
+  return {};
 }
 
 void XrRuntime::look_at_system() {

@@ -26,7 +26,14 @@ enum class XrUse { kTracking, kDisplay };
 
 class XrRuntime {
  public:
+  // The runtime and the headset behind it.
   static Result<std::unique_ptr<XrRuntime>> open(XrUse use);
+  // The runtime alone: some cannot be left and entered again and again while a headset sleeps.
+  static Result<std::unique_ptr<XrRuntime>> start(XrUse use);
+  // An error while the headset is asleep or unplugged, to be tried again unless the runtime itself
+  // is lost.
+  Result<void> find_headset();
+  bool is_lost() const { return is_lost_; }
   ~XrRuntime();
   XrRuntime(const XrRuntime&) = delete;
   XrRuntime& operator=(const XrRuntime&) = delete;
@@ -60,7 +67,6 @@ class XrRuntime {
   explicit XrRuntime(XrUse use) : use_(use) {}
   Result<void> create_instance();
   Result<void> find_clock();
-  Result<void> find_system();
   void look_at_system();
 
   XrUse use_;
@@ -68,6 +74,7 @@ class XrRuntime {
   XrSystemId system_ = XR_NULL_SYSTEM_ID;
   std::string name_;
   std::vector<std::string> extensions_;
+  bool is_lost_ = false;
   bool sees_hands_ = false, sees_body_fb_ = false, sees_legs_fb_ = false, sees_body_bd_ = false;
   XrResult (*mono_of_)(XrInstance, XrTime, struct timespec*) = nullptr;
   XrResult (*xr_of_)(XrInstance, const struct timespec*, XrTime*) = nullptr;

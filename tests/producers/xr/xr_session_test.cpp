@@ -110,7 +110,7 @@ TEST_F(XrLife, RunsHasFocusAndEndsAsItWasAsked) {
   EXPECT_EQ(session_->over(), Over::kNot);
   session_->ask_to_end();
   ASSERT_TRUE(pump_until([&] { return session_->over() != Over::kNot; }));
-  EXPECT_EQ(session_->over(), Over::kByUser);
+  EXPECT_EQ(session_->over(), Over::kEnded);
   EXPECT_FALSE(session_->is_running());
   EXPECT_TRUE(has_recorded("session EXITING"));
 }
@@ -131,7 +131,7 @@ TEST_F(XrLife, TheHeadsetsOwnMenuTakesTheFocusAndSleepTheSession) {
 TEST_F(XrLife, AnEndByTheHeadsetsMenuIsTheUsersWish) {
   open_focused("at 0.2 exit\n");
   ASSERT_TRUE(pump_until([&] { return session_->over() != Over::kNot; }));
-  EXPECT_EQ(session_->over(), Over::kByUser);
+  EXPECT_EQ(session_->over(), Over::kEnded);
 }
 
 TEST_F(XrLife, ALostSessionIsToldAndAnotherWorks) {
