@@ -70,19 +70,16 @@ std::optional<Vector2f> WristPanel::place_on(const Vector3f& at_W_m) const {
   return on;
 }
 
-std::optional<Vector2f> WristPanel::touched_at(const Input& input, bool& presses) const {
-  if (!input.fingertip_W_m) return std::nullopt;
-  // Behind it too, so that one that went through does not press again on its way back.
-  const float before = board_.axes_W.col(2).dot(*input.fingertip_W_m - board_.centre_W_m);
-  if (before > kNear_m || before < -kBehind_m) return std::nullopt;
-  presses = before < kTouch_m;
-  return place_on(*input.fingertip_W_m);
-}
-
 std::optional<Vector2f> WristPanel::point_at(const Input& input, bool& presses) const {
   presses = input.is_pressed;
-  if (const auto touched = touched_at(input, presses)) return touched;
-  presses = input.is_pressed;
+  if (input.fingertip_W_m) {
+    const float before = board_.axes_W.col(2).dot(*input.fingertip_W_m - board_.centre_W_m);
+    if (before < kNear_m) {
+      // Behind it too, so that one that went through does not press again on its way back.
+      presses = before < kTouch_m;
+      return before < -kBehind_m ? std::nullopt : place_on(*input.fingertip_W_m);
+    }
+  }
   if (!input.right_aim_W) return std::nullopt;
   const Vector3f normal = board_.axes_W.col(2);
   const Vector3f from = input.right_aim_W->translation();

@@ -64,7 +64,6 @@ class WristPanel {
  private:
   void place(const Input& input);
   bool is_looked_at(const Input& input) const;
-  std::optional<Eigen::Vector2f> touched_at(const Input& input, bool& presses) const;
   std::optional<Eigen::Vector2f> point_at(const Input& input, bool& presses) const;
   std::optional<Eigen::Vector2f> place_on(const Eigen::Vector3f& at_W_m) const;
 

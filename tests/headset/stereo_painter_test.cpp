@@ -154,6 +154,7 @@ TEST_F(StereoPicture, TheOwnHeadIsNotInTheWayAndTheOwnBodyIsThere) {
 
 TEST_F(StereoPicture, WhoComesTooNearFadesAway) {
   const Eyes empty = draw({});
+  wishes_.comfort.personal_space_m = 0.45f;
   const int at_arms_length = change_between(draw(with(other_at(-0.6f))).left, empty.left).pixels;
   EXPECT_GT(at_arms_length, 5000);
   EXPECT_LT(change_between(draw(with(other_at(-0.12f))).left, empty.left).pixels, 200);

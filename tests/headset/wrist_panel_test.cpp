@@ -281,6 +281,16 @@ TEST_F(WristPanelTest, AFingertipPressesByTouching) {
   EXPECT_EQ(presses(), 2);
 }
 
+TEST_F(WristPanelTest, ABareHandThatIsFarPressesByAPinch) {
+  show();
+  input_.fingertip_W_m = Vector3f(0.3f, 1.2f, -0.1f);
+  aim_at(point_on(PanelAction::kMute));
+  turn(Duration::ms(100));
+  EXPECT_EQ(presses(), 0);
+  press();
+  EXPECT_EQ(pressed_[PanelAction::kMute], 1);
+}
+
 TEST_F(WristPanelTest, AFingertipThatGoesThroughThePanelAndComesBackPressesOnce) {
   show();
   const Vector3f button = point_on(PanelAction::kMute);

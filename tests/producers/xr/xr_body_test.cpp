@@ -151,7 +151,11 @@ TEST_F(XrBodies, WithoutABodyTheDancerIsSolvedFromThePoints) {
   EXPECT_TRUE(dancer.solve(sight_, pose));
   sight_.has_figure = false;
   sight_.points.time = sight_.points.time + Duration::ms(10);
+  EXPECT_FALSE(dancer.solve(sight_, pose)) << "a body is waited for";
+  const Pose seen = pose;
+  sight_.points.time = sight_.points.time + Duration::ms(400);
   EXPECT_TRUE(dancer.solve(sight_, pose)) << "from head and hands";
+  EXPECT_LT((pose.p_WH_m - seen.p_WH_m).norm(), 0.02f) << "without a jump";
   EXPECT_TRUE(is_valid(pose));
 }
 
