@@ -137,7 +137,7 @@ TEST_F(XrBodies, ATrackerThatIsWornCountsMoreThanWhatTheHeadsetInfers) {
 }
 
 TEST_F(XrBodies, WithoutABodyTheDancerIsSolvedFromThePoints) {
-  open_body(kFull + std::string("at 0.4 lose head\nat 0.8 find head\n"));
+  open_body(kFull + std::string("at 0.4 lose head\nat 3 find head\n"));
   ASSERT_TRUE(pump_until([&] {
     const MonoTime now = mono_now();
     sensors_->look(runtime_->xr_of(now), now, {}, sight_);

