@@ -24,7 +24,10 @@ Result<void> HeadsetRun::run() {
   while (!is_over()) {
     guard_.beat();
     const auto danced = dance_once();
-    if (!danced && is_fatal_) return danced;
+    if (!danced && is_fatal_) {
+      sum_up();
+      return danced;
+    }
     if (is_over()) break;
     if (!danced && danced.error().what != trouble_) {
       trouble_ = danced.error().what;
@@ -35,8 +38,12 @@ Result<void> HeadsetRun::run() {
       show_.wait(std::min(until - mono_now(), Duration::ms(50)));
     }
   }
-  if (const std::string summary = show_.summary(); !summary.empty()) talk::info("{}", summary);
+  sum_up();
   return {};
+}
+
+void HeadsetRun::sum_up() const {
+  if (const std::string summary = show_.summary(); !summary.empty()) talk::info("{}", summary);
 }
 
 // The runtime is kept while its headset sleeps.

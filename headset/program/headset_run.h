@@ -53,6 +53,7 @@ class HeadsetRun {
   bool is_over() const;
   // From the runtime's beginning to the session's end.
   Result<void> dance_once();
+  void sum_up() const;
   Result<void> find_headset();
   Result<void> begin();
   Result<void> pump(XrDancerSession& session);

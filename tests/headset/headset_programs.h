@@ -24,7 +24,6 @@ class HeadsetPrograms : public BusPrograms {
 
   void SetUp() override {
     set("XR_RUNTIME_JSON", DANCE_BINARY_DIR "/lib/dance_test_xr.json");
-    set("XR_LOADER_DEBUG", "none");
     set("DANCE_XR_RECORD", folder_.path("record"));
     set("XDG_RUNTIME_DIR", folder_.path());
     set("LC_ALL", "C");

@@ -66,6 +66,8 @@ TEST_F(HeadsetTracking, TheDancerIsPutBeforeWhoStandsThereFaceToFace) {
 
 TEST_F(HeadsetTracking, GoesOnWhateverTheHeadsetDoesAndSaysEachInOneLine) {
   put_on_tracking(
+      // A head moves a little, whatever its eyes look at.
+      "at 0 pose head 0 1.65 0 0 0 0 1\nat 60 pose head 1.2 1.65 0 0 0 0 1\n"
       "at 0 pose hips 0 0.95 0 0 0 0 1\n"
       "at 2 nan head\nat 2.5 zero_quaternion head\nat 3 nan left-hand\n"
       "at 3.5 lose hips\nat 7 find hips\n"
@@ -127,11 +129,38 @@ TEST_F(HeadsetTracking, WithoutARuntimeOneLineSaysSoUntilItIsTold) {
   EXPECT_EQ(count_of(talk(), "\n"), 1) << talk();
 }
 
-TEST_F(HeadsetTracking, EndsWhenTheSessionIsEndedWithTheHeadset) {
+// As when the runtime is closed, or starts anew: a house starts the program again.
+TEST_F(HeadsetTracking, EndsWithAnErrorWhenTheRuntimeEndsTheSession) {
   ChildProcess& program = put_on_tracking("at 2 exit\n");
   ASSERT_TRUE(until([&] { return program.has_ended(); })) << talk();
-  EXPECT_TRUE(program.ended_well()) << program.exit_text() << talk();
-  EXPECT_EQ(said("ended with the headset"), 1) << talk();
+  EXPECT_EQ(program.exit_code(), 1) << program.exit_text() << talk();
+  EXPECT_EQ(said("the headset's runtime has ended the session"), 1) << talk();
+}
+
+TEST_F(HeadsetTracking, ADancerStaysWhereTheRuntimesSpaceIsMoved) {
+  put_on_tracking("at 4 jump 0.8 0 0.5 60\nat 7 pose head 0.1 1.65 0 0 0 0 1\n",
+                  {"--at", "1,2,90"});
+  ASSERT_TRUE(until([&] { return captured_["alice"].poses > 20; })) << talk();
+  const Pose before = newest("alice");
+  ASSERT_TRUE(hears_more(500)) << talk();
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_TRUE(hears_more(1));
+    EXPECT_LT((newest("alice").p_WH_m - before.p_WH_m).norm(), 0.25f);
+    EXPECT_LT(newest("alice").R_PB[0].angularDistance(before.R_PB[0]), 0.4f);
+  }
+}
+
+TEST_F(HeadsetTracking, AHeadsetThatLiesOnATableIsNoDancer) {
+  put_on_tracking("at 3 focus off\nat 9 focus on\n");
+  ASSERT_TRUE(until([&] { return captured_["alice"].poses > 20; })) << talk();
+  ASSERT_TRUE(until([&] { return said("put down") == 1; })) << talk();
+  ASSERT_TRUE(until([&] { return said("the headset is worn again") == 1; })) << talk();
+  ASSERT_TRUE(hears_more(20)) << talk();
+  Duration longest;
+  const std::vector<MonoTime>& captured = captured_["alice"].captured;
+  for (std::size_t i = 1; i < captured.size(); ++i)
+    longest = std::max(longest, captured[i] - captured[i - 1]);
+  EXPECT_GT(longest, Duration::s(2)) << "while nobody wears it";
 }
 
 TEST_F(HeadsetTracking, AHapticOnTheBusIsFeltInThatHand) {
