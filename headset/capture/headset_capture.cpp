@@ -11,6 +11,7 @@ namespace {
 
 // So long the others of the stage are waited for, before a free spot is chosen.
 constexpr Duration kLooksRound = Duration::ms(800);
+constexpr Duration kSpotEvery = Duration::ms(150);
 constexpr Duration kIsLost = Duration::ms(1500);
 constexpr Duration kPutDown = Duration::ms(1500);
 constexpr float kBreathes_m = 0.004f;  // nobody holds the head stiller for so long
@@ -109,26 +110,41 @@ MonoTime HeadsetCapture::tick(MonoTime now) {
   return next_;
 }
 
-// A runtime's space that is moved, or another one in a new session, leaves the dancer where the head
-// was on the stage. The first time, and when it is asked for, it is the spot that was chosen.
-void HeadsetCapture::place(XrTime time, MonoTime moment) {
-  const bool is_asked = recentre_asked_.load(std::memory_order_acquire);
-  const std::uint32_t recentres = session_.recentres();
-  const bool is_moved = recentres != now_.recentres;
-  const auto head = input_.head(time);
-  if (!head) return;
-  if (now_.is_placed && !is_asked && !is_moved) {
-    spot_ = spot_of(now_.placement.in_house(*head)).value_or(spot_.value_or(options_.spot));
+// A runtime's space that is moved leaves the dancer where the head was on the stage: exactly, where
+// the runtime tells by how much.
+void HeadsetCapture::follow_moves(MonoTime moment) {
+  if (!move_) move_ = session_.take_move();
+  if (!move_) {
+    now_.recentres = session_.recentres();
     return;
   }
-  if (is_moved && now_.is_placed && moment < session_.runtime().mono_of(session_.recentre_time()))
-    return;
+  if (now_.is_placed && moment < session_.runtime().mono_of(move_->at)) return;
+  XrSpaceLocation location{};
+  location.locationFlags =
+      XR_SPACE_LOCATION_POSITION_VALID_BIT | XR_SPACE_LOCATION_ORIENTATION_VALID_BIT;
+  location.pose = move_->new_in_old;
+  const auto new_in_old = move_->is_known ? place_of(location, false) : std::nullopt;
+  move_.reset();
+  ++now_.jumps;
+  if (new_in_old)
+    now_.placement = moved(now_.placement, *new_in_old);
+  else
+    now_.is_placed = false;  // anew, below the head's last place
+}
+
+// Another space in a new session leaves the dancer where the head was, too. The first time, and when
+// it is asked for, it is the spot that was chosen.
+void HeadsetCapture::place(XrTime time, MonoTime moment) {
+  follow_moves(moment);
+  const bool is_asked = recentre_asked_.load(std::memory_order_acquire);
+  const auto head = input_.head(time);
+  if (!head) return;
+  if (now_.is_placed && !is_asked) return keep_spot(now_.placement.in_house(*head), moment);
   // A headset that lies on a table looks nowhere.
   if (!session_.is_focused() || !spot_of(*head)) return;
   const bool is_chosen = is_asked || !spot_;
   if (is_chosen && !now_.is_placed && moment - begun_ < kLooksRound) return;
   recentre_asked_.store(false, std::memory_order_release);
-  now_.recentres = recentres;
   // Of a space without a floor: as far below the eyes as they are above it when one stands.
   const float floor =
       session_.has_stage() ? 0.0f : head->p_m.y() - kEyes * dancer_.values().height_m;
@@ -136,6 +152,16 @@ void HeadsetCapture::place(XrTime time, MonoTime moment) {
   now_.placement = placement_of(*head, spot, floor);
   now_.is_placed = true;
   ++now_.jumps;
+}
+
+// Some moments old, as a runtime may tell late that its space was moved.
+void HeadsetCapture::keep_spot(const XrPlace& head, MonoTime moment) {
+  if (next_spot_ && moment - spot_kept_ < kSpotEvery) return;
+  const auto spot = spot_of(head);
+  if (!spot) return;
+  spot_ = next_spot_ ? next_spot_ : spot;
+  next_spot_ = spot;
+  spot_kept_ = moment;
 }
 
 // With its own menu open a headset moves on a head; one that was put down lies still.
@@ -171,8 +197,11 @@ void HeadsetCapture::tell() {
 
 // Another thread says it: nothing is written here.
 void HeadsetCapture::note_losses(MonoTime now) {
+  // While the headset is put down all rests, which is a line of its own.
+  const bool rests = !session_.is_focused();
   for (std::size_t i = 0; i < kTrackedPointCount; ++i) {
     const std::uint32_t bit = 1u << i;
+    if (rests && seen_[i].is_set() && (now_.lost & bit) == 0) seen_[i] = now;
     if ((sight_.points.presence & bit) != 0) seen_[i] = now, now_.lost &= ~bit;
     if (seen_[i].is_set() && now - seen_[i] > kIsLost) now_.lost |= bit;
   }
@@ -180,8 +209,8 @@ void HeadsetCapture::note_losses(MonoTime now) {
 
 std::string HeadsetCapture::summary() const {
   return fmt::format(
-      "{} poses; {} moments without a head, {} with the headset put down, {} places that could not "
-      "be true; from the moment of the sensors to the bus {} us at the median, {} us at p99",
+      "{} poses, {} moments without a head, {} while nobody wore it, {} places that could not be "
+      "true; from the moment of the sensors to the bus {} us at the median, {} us at p99",
       poses_, without_head_, unworn_, input_.bad_places(), delay_.percentile(0.5).count_us(),
       delay_.percentile(0.99).count_us());
 }

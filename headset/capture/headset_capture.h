@@ -85,6 +85,8 @@ class HeadsetCapture {
   void run();
   MonoTime tick(MonoTime now);
   void place(XrTime time, MonoTime moment);
+  void follow_moves(MonoTime moment);
+  void keep_spot(const XrPlace& head, MonoTime moment);
   // Somebody wears it, as far as can be told.
   bool is_worn(MonoTime moment);
   void publish(MonoTime captured);
@@ -104,7 +106,9 @@ class HeadsetCapture {
   XrSight sight_;
   Pose pose_;
   HeadsetTold now_;
-  std::optional<XrSpot> spot_;  // of the head, newest
+  std::optional<XrSpaceMove> move_;         // that is still to come
+  std::optional<XrSpot> spot_, next_spot_;  // of the head, some moments ago and after that
+  MonoTime spot_kept_;
   Eigen::Vector3f rested_at_m_ = Eigen::Vector3f::Zero();
   MonoTime moved_;  // when the head was last seen to
   std::array<MonoTime, kTrackedPointCount> seen_{};

@@ -31,6 +31,7 @@ class StereoShow final : public HeadsetShow {
   }
 
   Result<void> begin(XrDancerSession& session, XrInput& input, HeadsetCapture& capture) override {
+    losses_ = {};
     HeadsetDisplayOptions display;
     display.own = options_.capture.guest;
     display.comfort = {options_.personal_space_m, options_.floor_m};

@@ -11,6 +11,7 @@ class TrackingShow final : public HeadsetShow {
   Result<const void*> binding(const XrRuntime&) override { return nullptr; }
   Result<void> begin(XrDancerSession&, XrInput&, HeadsetCapture& capture) override {
     capture_ = &capture;
+    losses_ = {};
     return {};
   }
   // Nothing is drawn: the capture has its own thread.

@@ -35,6 +35,10 @@ XrPlace XrPlacement::in_house(const XrPlace& in_base) const {
   return {in_house(in_base.p_m), (turn() * in_base.R).normalized()};
 }
 
+XrPlacement moved(const XrPlacement& placement, const XrPlace& new_in_old) {
+  return {placement.turn_rad + heading_rad(new_in_old.R), placement.in_house(new_in_old.p_m)};
+}
+
 std::optional<XrSpot> spot_of(const XrPlace& head) {
   constexpr float kLeastLevel = 0.3f;
   const Vector3f looks = head.R * -Vector3f::UnitZ();

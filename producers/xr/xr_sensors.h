@@ -32,6 +32,9 @@ struct XrPlacement {
 struct XrSpot {
   float x_m = 0.0f, z_m = 0.0f, heading_rad = 0.0f;
 };
+// X_WS of the new base space, which is there in the old one; what of it is a tilt is left out.
+XrPlacement moved(const XrPlacement& placement, const XrPlace& new_in_old);
+
 // Below the head, where it looks; nullopt where it looks straight up or down.
 std::optional<XrSpot> spot_of(const XrPlace& head);
 // Puts the head over the spot, looking along its heading; `floor_m` is the floor in the base space.

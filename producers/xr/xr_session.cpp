@@ -84,7 +84,7 @@ void XrDancerSession::poll() {
       const auto& change = reinterpret_cast<const XrEventDataReferenceSpaceChangePending&>(event);
       const auto own = has_stage_ ? XR_REFERENCE_SPACE_TYPE_STAGE : XR_REFERENCE_SPACE_TYPE_LOCAL;
       if (change.referenceSpaceType != own) continue;
-      recentre_time_.store(change.changeTime, std::memory_order_release);
+      moves_.push({change.changeTime, change.poseValid == XR_TRUE, change.poseInPreviousSpace});
       recentres_.fetch_add(1, std::memory_order_acq_rel);
     }
   }

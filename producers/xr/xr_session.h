@@ -11,10 +11,19 @@
 #pragma once
 
 #include <atomic>
+#include <optional>
 
+#include "core/base/spsc_ring.h"
 #include "producers/xr/xr_runtime.h"
 
 namespace dance {
+
+// The base space becomes another one.
+struct XrSpaceMove {
+  XrTime at = 0;          // from then on
+  bool is_known = false;  // where the new one is
+  XrPosef new_in_old{};
+};
 
 class XrDancerSession {
  public:
@@ -45,9 +54,10 @@ class XrDancerSession {
   bool is_focused() const { return is_focused_.load(std::memory_order_acquire); }
   bool is_visible() const { return is_visible_; }
   Over over() const { return over_; }
-  // How often the runtime has said that its base space is moved, and when the last time takes effect.
+  // How often the runtime has said that its base space is moved.
   std::uint32_t recentres() const { return recentres_.load(std::memory_order_acquire); }
-  XrTime recentre_time() const { return recentre_time_.load(std::memory_order_acquire); }
+  // The moves, in order, for one thread; as many as recentres() but for those that are too many.
+  std::optional<XrSpaceMove> take_move() const { return moves_.pop(); }
   std::uint32_t profile_changes() const { return profile_changes_; }
 
  private:
@@ -64,7 +74,7 @@ class XrDancerSession {
   bool is_visible_ = false, is_headless_ = false, was_focused_ = false;
   std::atomic<bool> is_running_{false}, is_focused_{false};
   std::atomic<std::uint32_t> recentres_{0};
-  std::atomic<XrTime> recentre_time_{0};
+  mutable SpscRing<XrSpaceMove, 16> moves_;
   std::uint32_t profile_changes_ = 0;
   Over over_ = Over::kNot;
 };

@@ -26,7 +26,7 @@ class HeadsetShowTest : public HeadsetPrograms {
     HeadsetPrograms::SetUp();
   }
   ChildProcess& put_on_small(const std::string& script, std::vector<std::string> more = {}) {
-    more.insert(more.begin(), {"--plain", "--language", "en"});
+    more.insert(more.begin(), {"--quality", "low", "--language", "en"});
     return put_on(kSmall + script, std::move(more));
   }
   int pictures() const { return count_of(record(), "layers 1"); }
