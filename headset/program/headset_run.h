@@ -4,10 +4,10 @@
 // Units/frames: none.
 // Ownership:    owns all.
 // Threads:      the main thread; capture and bus have their own.
-// Failure:      run() fails where there can be no pictures at all (no display, no OpenGL), and where
-//               the runtime has ended the session: it wants its programs to end, and a house starts
-//               this one again. What comes and goes (runtime, headset, session) is told in one line
-//               each, and waited for.
+// Failure:      run() fails where there can be no pictures at all (no display, no OpenGL), and
+//               where the runtime has ended the session: it wants its programs to end, and a house
+//               starts this one again. What comes and goes (runtime, headset, session) is told in
+//               one line each, and waited for.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// StallGuard: ends the program where it was asked to end and a call of the headset's runtime does not
-// come back. A vendor's code may hang for good, and signals are only read between calls.
+// StallGuard: ends the program where it was asked to end and a call of the headset's runtime does
+// not come back. A vendor's code may hang for good, and signals are only read between calls.
 //
 // Units/frames: none.
 // Ownership:    owns its thread, which its destructor ends.

@@ -3,9 +3,9 @@
 // strapped on, not a bone: calibration finds what lies between.
 //
 // Units/frames: metres in W (+Y up, the floor at 0, as OpenXR's stage space). Head: between the
-//               eyes, -Z looks forward, +Y up. Hands: OpenXR's grip pose (origin in the palm, -Z from
-//               the little finger to the thumb through a closed hand, +X out of the palm of the left
-//               hand and out of the back of the right). Others: as the tracker is worn.
+//               eyes, -Z looks forward, +Y up. Hands: OpenXR's grip pose (origin in the palm, -Z
+//               from the little finger to the thumb through a closed hand, +X out of the palm of
+//               the left hand and out of the back of the right). Others: as the tracker is worn.
 // Ownership:    plain value, no heap.
 // Threads:      none inside.
 // Failure:      is_valid() is false for a present point that is not finite, not a rotation within

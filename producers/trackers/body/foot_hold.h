@@ -1,5 +1,5 @@
-// FootHold: a foot that nobody measures, from where it probably is and how probably it stands: while
-// it stands its ball stays in place, and it steps where it has come to be elsewhere.
+// FootHold: a foot that nobody measures, from where it probably is and how probably it stands:
+// while it stands its ball stays in place, and it steps where it has come to be elsewhere.
 //
 // Units/frames: W, metres, the floor at 0.
 // Ownership:    plain value; never allocates.

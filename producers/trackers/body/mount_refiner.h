@@ -1,7 +1,8 @@
 // MountRefiner: what a T-pose gets wrong of worn trackers, found while they dance: the mean
 // difference, on the bone, between where a guide would have it and where it is measured. A pose
 // that was held badly for a second is off by centimetres; a dance is not, in the mean. While a
-// dancer stands about nothing is learnt: that is one pose, too, and the guide may be wrong about it.
+// dancer stands about nothing is learnt: that is one pose, too, and the guide may be wrong about
+// it.
 //
 // Units/frames: on each bone, metres and rotation vectors.
 // Ownership:    plain value; never allocates.

@@ -1,5 +1,5 @@
-// PlaceSmoother: takes the tremble out of a tracker that is nearly still, and follows one that moves
-// at once.
+// PlaceSmoother: takes the tremble out of a tracker that is nearly still, and follows one that
+// moves at once.
 //
 // Units/frames: W, metres.
 // Ownership:    plain value; never allocates.

@@ -1,6 +1,6 @@
-// UsualPosture: what a dancer who walks about tells of mounts, without a T-pose: the usual height of
-// the eyes, how each device is usually turned against where the dancer faces, and where it usually
-// is from the head. Feet count while they stand.
+// UsualPosture: what a dancer who walks about tells of mounts, without a T-pose: the usual height
+// of the eyes, how each device is usually turned against where the dancer faces, and where it
+// usually is from the head. Feet count while they stand.
 //
 // Units/frames: facing is the heading of the head, or that of the walk; metres.
 // Ownership:    plain value; never allocates.
