@@ -146,7 +146,7 @@ if [ "$sanitizers" = yes ]; then
   export TSAN_OPTIONS=suppressions=$PWD/tests/tsan_suppressions.txt:log_path=$PWD/build/tsan-report
   # Drawing in software is ten times slower here, and memory that a graphics driver keeps until it is unloaded counts as
   # lost: the viewer's own tests draw under sanitizers.
-  draws='Demo\.(DrawsAFilm|PlaysTheSong|ShowsADancer)|Convert\.WritesALogThatTheViewerShows|LobbyWindowTest|TwoWindowsTest|DancePictureTest'
+  draws='Demo\.(DrawsAFilm|PlaysTheSong|ShowsADancer)|Convert\.WritesALogThatTheViewerShows|LobbyWindowTest|TwoWindowsTest|DancePictureTest|HeadsetShowTest|HouseHeadsetTest\.JoiningWithOne'
   # One build of clang's for the sanitizers and the fuzz targets; libFuzzer has the corpora.
   asan_is_built=no
   if step asan; then

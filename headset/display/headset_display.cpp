@@ -91,7 +91,7 @@ Result<void> HeadsetDisplay::draw(const XrFrames::Turn& turn, bool& is_drawn) {
   StereoWishes wishes;
   wishes.own = options_.own;
   wishes.comfort = options_.comfort;
-  // While the runtime's space is another one than the capture has heard of, nothing is in its place.
+  // While the space is another one than the capture has heard of, nothing is in its place.
   const bool is_elsewhere = session_.recentres() != told_.recentres;
   wishes.darkness = is_elsewhere ? 1.0f : fade_.darkness(taken);
   wishes.tags = options_.tags;

@@ -3,6 +3,7 @@
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "core/program/whole_file.h"
+#include "research/trackers/standing_take.h"
 #include "research/trackers/tracker_model_file.h"
 #include "research/trackers/tracker_net_fit.h"
 
@@ -14,10 +15,13 @@ constexpr const char* kTrackersTrainExamples = R"(Examples:
   dance trackers eval other/*.bvh.xz --model body.model
 )";
 
+constexpr double kStandingTake_s = 110.0;
+
 struct TrackersTrainWishes {
   std::vector<std::string> files;
   std::string out = "body.model";
   int bodies = 8;
+  int standing = 8;
   TrackerFit fit;
 };
 
@@ -31,6 +35,11 @@ Result<void> run_trackers_train(TrackersTrainWishes& wishes) {
     talk::info("{}: {} frames", take.name, take.poses.size());
     for (TrackerDance& dance : tracker_dances(take, wishes.bodies, random))
       dances.push_back(std::move(dance));
+  }
+  for (int i = 0; i < wishes.standing; ++i) {
+    const auto height_m = static_cast<float>(random.uniform(1.62, 1.86));
+    const PredictTake take = standing_take(height_m, TrackerRow::kStep_hz, kStandingTake_s, random);
+    for (TrackerDance& dance : tracker_dances(take, 1, random)) dances.push_back(std::move(dance));
   }
   TrackerModel model;
   model.net = fit_tracker_net(dances, wishes.fit);
@@ -54,6 +63,10 @@ int main(int argc, char** argv) {
       .shows_default();
   line.add("--bodies", wishes.bodies, "bodies that each dance and its mirror image are put on")
       .range(1, 32)
+      .shows_default();
+  line.add("--standing", wishes.standing,
+           "made takes, of 110 s, of somebody who stands about and walks a few steps")
+      .range(0, 64)
       .shows_default();
   line.add("--seed", wishes.fit.seed, "another number begins elsewhere").shows_default();
   line.footer(dance::kTrackersTrainExamples);
