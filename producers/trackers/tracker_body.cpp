@@ -55,12 +55,15 @@ bool TrackerBody::restore(const CalibrationValues& values) {
 
 bool TrackerBody::solve(const TrackerFrame& frame, Pose& pose) {
   if (!is_valid(frame) || !frame.has(TrackedPoint::kHead)) return false;
+  // A clock that was set back is another clock.
+  if (newest_.is_set() && newest_ - frame.time > kLongestPause) forget_motion();
   if (newest_.is_set() && frame.time <= newest_) return false;
   if (newest_.is_set() && frame.time - newest_ > kLongestPause) forget_motion();
   const float seconds =
       newest_.is_set() ? static_cast<float>((frame.time - newest_).as_seconds()) : 0.0f;
   newest_ = frame.time;
-  if (calibration_.observe(frame)) {
+  const bool mounts_changed = calibration_.observe(frame);
+  if (mounts_changed) {
     take_body();
     refiner_.reset();
   }
@@ -76,7 +79,7 @@ bool TrackerBody::solve(const TrackerFrame& frame, Pose& pose) {
   guide_->guess(skeleton_, bones, seconds, guess_);
   refiner_.observe(bones, guess_, seconds);
   refiner_.apply(bones);
-  fit_.fit(skeleton_, guess_, bones, seconds, pose);
+  fit_.fit(skeleton_, guess_, bones, mounts_changed, seconds, pose);
   pose.presence = kAllBones;
   pose.confidence = calibration_.state() == CalibrationState::kNeedsTPose ? 0.5f : 1.0f;
   pose.capture_time = frame.time;

@@ -21,6 +21,10 @@ constexpr float kLeastArm = 0.85f, kMostArm = 1.15f;
 constexpr float kMostMount_m = 0.6f;
 // A T-pose, in body heights: hands at the shoulders' height, and how far apart.
 constexpr float kHandsHeight = 0.79f, kHandsHeightWithin = 0.13f, kLeastSpan = 0.74f;
+// Wider than anybody's for the height of the eyes: somebody sits or crouches.
+constexpr float kMostSpan = 1.03f;
+constexpr float kUpright_cos = 0.87f;
+constexpr Duration kRequestHolds = Duration::s(60);
 constexpr float kSpanToTheLeft = 0.7f;
 // Stretched hands say better than the head where a dancer faces.
 constexpr float kTrustHands = 0.7f;
@@ -35,6 +39,11 @@ constexpr float kFirstPosture_s = 8.0f, kNextPosture_s = 16.0f;
 bool is_pair_present(std::uint32_t presence) {
   const auto bit = [&](TrackedPoint p) { return presence >> index_of(p) & 1u; };
   return bit(TrackedPoint::kLeftHand) && bit(TrackedPoint::kRightHand);
+}
+
+bool is_nearly(const Mount& a, const Mount& b) {
+  return a.is_known == b.is_known && (a.p_BT_m - b.p_BT_m).norm() < 0.005f &&
+         a.R_BT.angularDistance(b.R_BT) < 0.02f;
 }
 
 float turned_by(float from_rad, float to_rad) {
@@ -89,6 +98,8 @@ bool TrackerCalibration::restore(const CalibrationValues& values) {
 
 void TrackerCalibration::request_t_pose() {
   is_requested_ = true;
+  requested_ = MonoTime();
+  hands_seen_ = false;
   still_.clear();
 }
 
@@ -99,6 +110,7 @@ float TrackerCalibration::t_pose_progress() const {
 
 bool TrackerCalibration::observe(const TrackerFrame& frame) {
   if (!frame.has(TrackedPoint::kHead)) return false;
+  follow_request(frame);
   bool changed = take_height(frame);
   const bool is_full = still_.add(frame);
   const bool is_wanted = is_requested_ || values_.state != CalibrationState::kFromTPose;
@@ -121,22 +133,33 @@ bool TrackerCalibration::take_height(const TrackerFrame& frame) {
   return true;
 }
 
+void TrackerCalibration::follow_request(const TrackerFrame& frame) {
+  if (!is_requested_) return;
+  if (!requested_.is_set()) requested_ = frame.time;
+  hands_seen_ =
+      hands_seen_ || frame.has(TrackedPoint::kLeftHand) || frame.has(TrackedPoint::kRightHand);
+  if (frame.time - requested_ > kRequestHolds) is_requested_ = false;
+}
+
 bool TrackerCalibration::is_t_pose(const StillWindow& still) const {
   const BonePlaces& means = still.means();
   const Place& head = means.of(TrackedPoint::kHead);
   const float height = head.p_W_m.y() * kHeightOverEyes;
   if (height < kLeastHeight_m || height > kMostHeight_m) return false;
-  if (!is_pair_present(means.presence)) return is_requested_;
+  const Mount nominal = nominal_mount(TrackedPoint::kHead, height);
+  const Quaternionf R_WHead = head.R_W * nominal.R_BT.conjugate();
+  if ((R_WHead * Vector3f::UnitY()).y() < kUpright_cos) return false;
+  // Of somebody without hands, as far as is known, to stand still is enough.
+  if (!is_pair_present(means.presence)) return is_requested_ && !hands_seen_;
   const Vector3f left = means.of(TrackedPoint::kLeftHand).p_W_m;
   const Vector3f right = means.of(TrackedPoint::kRightHand).p_W_m;
   for (const Vector3f& hand : {left, right})
     if (std::abs(hand.y() - kHandsHeight * height) > kHandsHeightWithin * height) return false;
   Vector3f span = left - right;
   span.y() = 0.0f;
-  const Mount nominal = nominal_mount(TrackedPoint::kHead, height);
-  const Quaternionf R_WHead = head.R_W * nominal.R_BT.conjugate();
   const Vector3f to_left = heading_turn(R_WHead) * Vector3f::UnitX();
-  return span.norm() > kLeastSpan * height && to_left.dot(span) > kSpanToTheLeft * span.norm();
+  return span.norm() > kLeastSpan * height && span.norm() < kMostSpan * height &&
+         to_left.dot(span) > kSpanToTheLeft * span.norm();
 }
 
 void TrackerCalibration::take_t_pose(const StillWindow& still) {
@@ -190,11 +213,15 @@ void TrackerCalibration::take_arms(const StillWindow& still, const Quaternionf& 
 
 bool TrackerCalibration::take_usual_posture() {
   const float next = kFirstPosture_s + kNextPosture_s * static_cast<float>(postures_taken_);
-  if (usual_.seen_s(TrackedPoint::kHead) < next) return false;
+  if (usual_.counted_s() < next) return false;
   ++postures_taken_;
   const float height = usual_.eyes_m() * kHeightOverEyes;
   if (height < kLeastHeight_m) return false;
-  if (std::abs(height - values_.height_m) > kHeightStep * values_.height_m) set_height(height);
+  bool changed = values_.state != CalibrationState::kFromWalking;
+  if (std::abs(height - values_.height_m) > kHeightStep * values_.height_m) {
+    set_height(height);
+    changed = true;
+  }
   BonePlaces usual;
   for (std::size_t i = 0; i < kTrackedPointCount; ++i) {
     const auto point = static_cast<TrackedPoint>(i);
@@ -207,11 +234,15 @@ bool TrackerCalibration::take_usual_posture() {
   for (std::size_t i = 0; i < kTrackedPointCount; ++i) {
     const auto point = static_cast<TrackedPoint>(i);
     const bool is_worn = !nominal_mount(point, values_.height_m).is_known;
-    if (is_worn && usual.has(point))
-      values_.mounts[i] = mount_between(body.bone(point), usual.places[i]);
+    if (!is_worn || !usual.has(point)) continue;
+    const Mount found = mount_between(body.bone(point), usual.places[i]);
+    // Nobody wears it there.
+    if (found.p_BT_m.norm() > kMostMount_m) continue;
+    changed = changed || !is_nearly(values_.mounts[i], found);
+    values_.mounts[i] = found;
   }
   values_.state = CalibrationState::kFromWalking;
-  return true;
+  return changed;
 }
 
 void TrackerCalibration::place_bones(const TrackerFrame& frame, BonePlaces& bones) const {

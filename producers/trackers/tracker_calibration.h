@@ -40,8 +40,9 @@ class TrackerCalibration {
  public:
   TrackerCalibration();
 
-  // The next second of standing still counts as the T-pose, also where one was found before; where
-  // no hands are tracked, standing upright is enough. The first T-pose is recognised by itself.
+  // The next moment of standing in T-pose within a minute counts, also where one was found before.
+  // Where no hand is seen all the while, standing upright is enough. Not needed for the first: arms
+  // stretched out are recognised.
   void request_t_pose();
   // A valid frame, each once. Returns whether the values changed.
   bool observe(const TrackerFrame& frame);
@@ -60,6 +61,7 @@ class TrackerCalibration {
   void place_bones(const TrackerFrame& frame, BonePlaces& bones) const;
 
  private:
+  void follow_request(const TrackerFrame& frame);
   bool is_t_pose(const StillWindow& still) const;
   void take_t_pose(const StillWindow& still);
   void take_arms(const StillWindow& still, const Eigen::Quaternionf& R_WFacing);
@@ -70,7 +72,8 @@ class TrackerCalibration {
   CalibrationValues values_;
   StillWindow still_;
   UsualPosture usual_;
-  bool is_requested_ = false;
+  bool is_requested_ = false, hands_seen_ = false;  // since it was
+  MonoTime requested_;
   bool is_height_known_ = false;
   int postures_taken_ = 0;
 };

@@ -17,7 +17,10 @@ constexpr float kElbowBends_m = 0.02f, kKneeBends_m = 0.03f;
 
 Place BodyFit::follow(const Step& step, TrackedPoint point, const Place& guessed) {
   const Place* measured = step.bones.has(point) ? &step.bones.of(point) : nullptr;
-  return fades_[index_of(point)].follow(measured, guessed, step.seconds, step.points_changed);
+  // Head and hands are shown where they are measured.
+  const bool is_worn = index_of(point) > index_of(TrackedPoint::kRightHand);
+  const bool jumps = measured != nullptr ? is_worn && step.mounts_changed : step.points_changed;
+  return fades_[index_of(point)].follow(measured, guessed, step.seconds, jumps);
 }
 
 void BodyFit::fit_trunk(Step& step) {
@@ -110,8 +113,8 @@ void BodyFit::fit_leg(Step& step, std::size_t side) {
 }
 
 void BodyFit::fit(const Skeleton& skeleton, const BodyGuess& guess, const BonePlaces& bones,
-                  float seconds, Pose& pose) {
-  Step step{skeleton, guess, bones, seconds, bones.presence != presence_, {}};
+                  bool mounts_changed, float seconds, Pose& pose) {
+  Step step{skeleton, guess, bones, seconds, bones.presence != presence_, mounts_changed, {}};
   presence_ = bones.presence;
   step.frames.R_WB = guess.R_WB;
   step.frames.p_WB_m.fill(Vector3f::Zero());

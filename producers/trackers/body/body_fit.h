@@ -1,6 +1,6 @@
 // BodyFit: a whole body that is where it was measured, and elsewhere as a guide has guessed: the
 // spine bends until the head is in its place, arms and legs reach hands and feet, feet that stand
-// stay, and nothing goes below the floor. Points that are lost fade to the guess, and back.
+// stay, and no foot goes below the floor. Points that are lost fade to the guess, and back.
 //
 // Units/frames: W, metres, the floor at 0.
 // Ownership:    plain value; never allocates.
@@ -20,9 +20,9 @@ class BodyFit {
  public:
   void reset() { *this = BodyFit(); }
 
-  // `seconds` since the last call.
-  void fit(const Skeleton& skeleton, const BodyGuess& guess, const BonePlaces& bones, float seconds,
-           Pose& pose);
+  // `mounts_changed`: worn points are on their bones elsewhere than in the last call, `seconds` ago.
+  void fit(const Skeleton& skeleton, const BodyGuess& guess, const BonePlaces& bones,
+           bool mounts_changed, float seconds, Pose& pose);
 
  private:
   struct Step {
@@ -30,7 +30,7 @@ class BodyFit {
     const BodyGuess& guess;
     const BonePlaces& bones;
     float seconds;
-    bool points_changed;
+    bool points_changed, mounts_changed;
     BodyFrames frames;
   };
 

@@ -3,7 +3,7 @@
 // Units/frames: as tracker_frame.h.
 // Ownership:    plain value; never allocates.
 // Threads:      none inside; one owner.
-// Failure:      none. A point that moves, comes or goes begins a new window.
+// Failure:      none. A point that moves, and a head or hand that comes or goes, begin a new window.
 #pragma once
 
 #include "producers/trackers/tracker_mounts.h"
@@ -29,6 +29,7 @@ class StillWindow {
   TrackerFrame first_;
   std::array<Eigen::Vector3f, kTrackedPointCount> position_sums_;
   std::array<Eigen::Vector4f, kTrackedPointCount> rotation_sums_;
+  std::array<int, kTrackedPointCount> seen_{};
   BonePlaces means_;
   MonoTime newest_;
   int count_ = 0;

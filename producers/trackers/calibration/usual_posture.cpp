@@ -18,6 +18,9 @@ constexpr float kWalks_m_s = 0.6f;
 constexpr float kForward = 0.8f;
 constexpr float kFootStands_m_s = 0.12f, kFootOver_s = 0.1f;
 // The eyes' usual height: quickly up, slowly down, so that it stays near the upper end.
+constexpr float kMoves_m_s = 0.06f, kSpeedOver_s = 1.0f;
+constexpr float kRemembers_s = 60.0f;
+constexpr float kPutOn = 1.1f, kCrouches = 0.85f;
 constexpr float kEyesUp_s = 0.6f, kEyesDown_s = 15.0f;
 
 bool is_foot(std::size_t point) {
@@ -44,6 +47,21 @@ void UsualPosture::follow_facing(const TrackerFrame& frame, float seconds) {
   R_WFacing_ = R_WFacing_.slerp(1.0f - std::exp(-seconds / kFacing_s), facing);
 }
 
+// A headset that lies still is on no head.
+bool UsualPosture::counts(const TrackerFrame& frame, float seconds) {
+  const Vector3f moved =
+      frame.position(TrackedPoint::kHead) - before_.position(TrackedPoint::kHead);
+  speed_m_s_ += (moved.norm() / seconds - speed_m_s_) * (1.0f - std::exp(-seconds / kSpeedOver_s));
+  return speed_m_s_ > kMoves_m_s;
+}
+
+void UsualPosture::forget_sums() {
+  eyes_of_sums_m_ = eyes_m_;
+  position_sums_ = zeros();
+  rotation_sums_ = zeros4();
+  seen_s_.fill(0.0f);
+}
+
 void UsualPosture::add(const TrackerFrame& frame) {
   if (!frame.has(TrackedPoint::kHead)) return;
   const auto seconds = static_cast<float>((frame.time - before_.time).as_seconds());
@@ -57,11 +75,16 @@ void UsualPosture::add(const TrackerFrame& frame) {
     return;
   }
   follow_facing(frame, seconds);
+  const bool is_worn = counts(frame, seconds);
   before_ = frame;
   const float eyes = frame.position(TrackedPoint::kHead).y();
   if (eyes_m_ == 0.0f) eyes_m_ = eyes;
   eyes_m_ +=
       (eyes - eyes_m_) * (1.0f - std::exp(-seconds / (eyes > eyes_m_ ? kEyesUp_s : kEyesDown_s)));
+  // It was put on: what was seen before is of a table.
+  if (eyes_m_ > kPutOn * eyes_of_sums_m_) forget_sums();
+  if (!is_worn || eyes < kCrouches * eyes_m_) return;
+  counted_s_ += seconds;
   const Vector3f origin = head_on_floor(frame);
   for (std::size_t i = 0; i < kTrackedPointCount; ++i) {
     if ((frame.presence & before.presence) >> i & 1u) {
@@ -75,6 +98,12 @@ void UsualPosture::add(const TrackerFrame& frame) {
       rotation_sums_[i] += seconds * sign * c;
       position_sums_[i] += seconds * (R_WFacing_.conjugate() * (frame.p_WT_m[i] - origin));
       seen_s_[i] += seconds;
+      if (seen_s_[i] > kRemembers_s) {
+        const float kept = kRemembers_s / seen_s_[i];
+        rotation_sums_[i] *= kept;
+        position_sums_[i] *= kept;
+        seen_s_[i] = kRemembers_s;
+      }
     }
   }
 }

@@ -19,7 +19,9 @@ class UsualPosture {
   void add(const TrackerFrame& frame);
   void clear() { *this = UsualPosture(); }
 
-  // Seconds that count.
+  // Seconds in which the head moved, as on somebody who walks about; of all, and of what is
+  // remembered of a point.
+  float counted_s() const { return counted_s_; }
   float seen_s(TrackedPoint point) const { return seen_s_[index_of(point)]; }
   // The device against the head's place on the floor, turned by where the dancer faces.
   Place usual_place(TrackedPoint point) const;
@@ -28,6 +30,8 @@ class UsualPosture {
 
  private:
   void follow_facing(const TrackerFrame& frame, float seconds);
+  bool counts(const TrackerFrame& frame, float seconds);
+  void forget_sums();
 
   std::array<Eigen::Vector3f, kTrackedPointCount> position_sums_{zeros()};
   std::array<Eigen::Vector4f, kTrackedPointCount> rotation_sums_{zeros4()};
@@ -36,7 +40,8 @@ class UsualPosture {
   TrackerFrame before_;
   Eigen::Vector3f walk_m_s_ = Eigen::Vector3f::Zero();
   Eigen::Quaternionf R_WFacing_ = Eigen::Quaternionf::Identity();
-  float eyes_m_ = 0.0f;
+  float eyes_m_ = 0.0f, eyes_of_sums_m_ = 0.0f, counted_s_ = 0.0f;
+  float speed_m_s_ = 0.0f;  // of the head, lately
   bool began_ = false;
 
   static std::array<Eigen::Vector3f, kTrackedPointCount> zeros() {

@@ -75,6 +75,55 @@ TEST(TrackerCalibration, ArmsThatHangAreNoTPose) {
   EXPECT_TRUE(solver.calibration().awaits_t_pose());
 }
 
+TEST(TrackerCalibration, SomebodyWhoSitsWithStretchedArmsIsNoTPose) {
+  const WornPoints worn(average_skeleton(), kThreePoints);
+  TrackerBody solver({.guide = TrackerGuide::kGeometric});
+  Pose pose, seated = standing(worn.body);
+  seated.p_WH_m.y() -= 0.4f;
+  solver.request_t_pose();
+  for (double t = 0.0; t < 3.0; t += 0.01) solver.solve(worn.see(seated, at_seconds(t)), pose);
+  EXPECT_EQ(solver.calibration().state(), CalibrationState::kNeedsTPose);
+}
+
+TEST(TrackerCalibration, ATPoseThatWasAskedForWaitsForHandsThatWereSeen) {
+  WornPoints worn(average_skeleton(), kThreePoints);
+  TrackerBody solver({.guide = TrackerGuide::kGeometric});
+  Pose pose;
+  solver.request_t_pose();
+  solver.solve(worn.see(with_arms_down(worn.body), at_seconds(0.0)), pose);
+  worn.points = 0b1;  // out of the cameras' sight
+  for (double t = 0.01; t < 3.0; t += 0.01)
+    solver.solve(worn.see(with_arms_down(worn.body), at_seconds(t)), pose);
+  EXPECT_EQ(solver.calibration().state(), CalibrationState::kNeedsTPose);
+  EXPECT_TRUE(solver.calibration().awaits_t_pose());
+  // It is not waited for for ever.
+  for (double t = 3.0; t < 70.0; t += 0.05)
+    solver.solve(worn.see(with_arms_down(worn.body), at_seconds(t)), pose);
+  EXPECT_FALSE(solver.calibration().awaits_t_pose());
+}
+
+TEST(TrackerCalibration, AHeadsetOnATableIsNobody) {
+  WornPoints worn(average_skeleton(), kSixPoints);
+  TrackerBody solver({.guide = TrackerGuide::kGeometric});
+  Pose pose, lies = standing(worn.body);
+  lies.p_WH_m.y() -= 0.6f;
+  for (double t = 0.0; t < 40.0; t += 0.05) solver.solve(worn.see(lies, at_seconds(t)), pose);
+  EXPECT_EQ(solver.calibration().state(), CalibrationState::kNeedsTPose);
+  EXPECT_FALSE(solver.calibration().values().mounts[index_of(TrackedPoint::kHips)].is_known);
+}
+
+TEST(TrackerCalibration, ATrackerThatFlickersDoesNotHoldUpTheTPose) {
+  WornPoints worn(average_skeleton(), kSixPoints);
+  TrackerBody solver({.guide = TrackerGuide::kGeometric});
+  Pose pose;
+  for (int i = 0; i < 120; ++i) {
+    worn.points = i % 5 == 0 ? kSixPoints & ~(1u << index_of(TrackedPoint::kLeftFoot)) : kSixPoints;
+    solver.solve(worn.see(standing(worn.body), at_seconds(i / 90.0)), pose);
+  }
+  EXPECT_EQ(solver.calibration().state(), CalibrationState::kFromTPose);
+  EXPECT_TRUE(solver.calibration().values().mounts[index_of(TrackedPoint::kLeftFoot)].is_known);
+}
+
 TEST(TrackerCalibration, ASecondTPoseCountsOnlyWhereItIsAskedFor) {
   TrackerBody solver({.guide = TrackerGuide::kGeometric});
   stand_in_t_pose(solver, WornPoints(average_skeleton(1.6f), kThreePoints));
