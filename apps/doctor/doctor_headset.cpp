@@ -1,14 +1,19 @@
 #include "apps/doctor/doctor_headset.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
-#include "core/program/program.h"
-
 namespace dance {
+namespace {
+
+#ifdef DANCE_HAVE_XR
+constexpr bool kIsBuilt = true;
+#else
+constexpr bool kIsBuilt = false;
+#endif
+
+}  // namespace
 
 std::vector<std::string> openxr_manifests(const Environment& environment) {
   if (const std::string named = environment("XR_RUNTIME_JSON"); !named.empty()) return {named};
@@ -55,8 +60,7 @@ Finding check_headset() {
     const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
     return std::string(value != nullptr ? value : "");
   };
-  return check_headset(environment,
-                       access((program_folder() + "/dance-headset").c_str(), X_OK) == 0);
+  return check_headset(environment, kIsBuilt);
 }
 
 }  // namespace dance

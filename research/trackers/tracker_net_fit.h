@@ -18,7 +18,7 @@
 namespace dance {
 
 struct TrackerFit {
-  int rounds = 2500;  // each of 32 sequences of 2.4 s
+  int rounds = 4000;  // each of 32 sequences of 2.4 s
   std::uint64_t seed = 1;
   std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
