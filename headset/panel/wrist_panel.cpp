@@ -11,8 +11,6 @@ using Eigen::Vector3f;
 
 namespace {
 
-// From the palm, as the grip pose has it, to over the back of the wrist.
-constexpr float kOverBack_m = 0.07f, kTowardsWrist_m = 0.05f;
 // It shows while its face is turned to the eyes, near enough to be read; a turn of the hand in the
 // dance does not show it.
 constexpr float kShows_cos = 0.82f, kHides_cos = 0.70f;
@@ -47,7 +45,7 @@ void WristPanel::place(const Input& input) {
   board_.axes_W.col(1) = grip.linear().col(2);
   board_.axes_W.col(0) = -grip.linear().col(1);
   board_.centre_W_m =
-      grip.translation() + kOverBack_m * to_eyes + kTowardsWrist_m * grip.linear().col(1);
+      grip.translation() + kOverBack_m * to_eyes - kTowardsFingers_m * grip.linear().col(1);
 }
 
 // Turned to the eyes, and in the middle of what they see: a hand on a partner's shoulder is not.

@@ -33,6 +33,9 @@ struct PanelArea {
 class WristPanel {
  public:
   static constexpr float kWidth_m = 0.20f, kHeight_m = 0.14f;
+  // Of its middle, from the palm: out of the back of the hand, and towards the fingers, so that the
+  // own forearm is not before it.
+  static constexpr float kOverBack_m = 0.09f, kTowardsFingers_m = 0.02f;
 
   struct Input {
     Eigen::Vector3f eyes_W_m = Eigen::Vector3f::Zero();

@@ -27,8 +27,10 @@ class ScriptedHands {
     R.col(0) = -Eigen::Vector3f::UnitZ();
     R.col(1) = -Eigen::Vector3f::UnitX();
     R.col(2) = Eigen::Vector3f::UnitY();
-    return line(time_s, "left-hand", panel_m_ + Eigen::Vector3f(0.05f, 0.0f, -0.07f),
-                Eigen::Quaternionf(R));
+    return line(
+        time_s, "left-hand",
+        panel_m_ - Eigen::Vector3f(WristPanel::kTowardsFingers_m, 0.0f, WristPanel::kOverBack_m),
+        Eigen::Quaternionf(R));
   }
   // The grip of a controller that points at the middle of that button.
   std::string right_at(double time_s, PanelAction action) const {

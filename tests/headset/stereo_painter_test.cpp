@@ -99,7 +99,8 @@ class StereoPicture : public OffscreenTest {
     grip.linear().col(0) = -Vector3f::UnitZ();
     grip.linear().col(1) = -Vector3f::UnitX();
     grip.linear().col(2) = Vector3f::UnitY();
-    grip.translation() = kBetweenEyes_m + Vector3f(0.05f, 0.0f, -0.47f);
+    grip.translation() = kBetweenEyes_m - Vector3f(WristPanel::kTowardsFingers_m, 0.0f,
+                                                   0.4f + WristPanel::kOverBack_m);
     input.left_grip_W = grip;
     for (int i = 1; i < 60; ++i) panel_.update(input, MonoTime() + Duration::ms(20 * i));
     ASSERT_EQ(panel_.opacity(), 1.0f);

@@ -31,7 +31,9 @@ Isometry3f grip_for(const Vector3f& panel_m) {
   R.col(0) = -Vector3f::UnitZ();
   R.col(1) = -Vector3f::UnitX();
   R.col(2) = Vector3f::UnitY();
-  return isometry(panel_m - 0.07f * Vector3f::UnitZ() + 0.05f * Vector3f::UnitX(), R);
+  return isometry(panel_m - WristPanel::kOverBack_m * Vector3f::UnitZ() -
+                      WristPanel::kTowardsFingers_m * Vector3f::UnitX(),
+                  R);
 }
 
 Vector3f point_on(PanelAction action) {
