@@ -1,5 +1,5 @@
-// Takes of somebody who stands about, looks round, turns on the spot and walks a few steps: made, as
-// recorded dances have none of it, and dancers do it before and between the songs.
+// Takes of somebody who stands about, looks round, turns on the spot and walks a few steps: made,
+// as recorded dances have none of it, and dancers do it before and between the songs.
 //
 // Units/frames: as core/pose/pose.h; the floor at 0.
 // Ownership:    plain values.
