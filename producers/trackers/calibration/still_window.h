@@ -3,7 +3,7 @@
 // Units/frames: as tracker_frame.h.
 // Ownership:    plain value; never allocates.
 // Threads:      none inside; one owner.
-// Failure:      none. A point that moves, and a head or hand that comes or goes, begin a new window.
+// Failure:      none. A point that moves, or a head or hand that comes or goes, restarts it.
 #pragma once
 
 #include "producers/trackers/tracker_mounts.h"
