@@ -1,4 +1,4 @@
-// BenchHeadset: how long it takes from the moment that a headset's sensors are asked for to the link
+// BenchHeadset: how long it takes from when a headset's sensors are asked for to the link
 // that sends the pose on, with the real programs: dance headset behind OpenXR's loader and the test
 // runtime, a house, a server and a second house. Beside it, in the same house and at the same rate,
 // a synthetic dancer, whose pose costs nothing to find.

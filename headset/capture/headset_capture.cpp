@@ -132,7 +132,7 @@ void HeadsetCapture::follow_moves(MonoTime moment) {
     now_.is_placed = false;  // anew, below the head's last place
 }
 
-// Another space in a new session leaves the dancer where the head was, too. The first time, and when
+// Another space in a new session leaves the dancer where the head was. The first time, and when
 // it is asked for, it is the spot that was chosen.
 void HeadsetCapture::place(XrTime time, MonoTime moment) {
   follow_moves(moment);

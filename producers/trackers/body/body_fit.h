@@ -20,7 +20,7 @@ class BodyFit {
  public:
   void reset() { *this = BodyFit(); }
 
-  // `mounts_changed`: worn points are on their bones elsewhere than in the last call, `seconds` ago.
+  // `mounts_changed`: worn points are on their bones elsewhere than in the call `seconds` ago.
   void fit(const Skeleton& skeleton, const BodyGuess& guess, const BonePlaces& bones,
            bool mounts_changed, float seconds, Pose& pose);
 
