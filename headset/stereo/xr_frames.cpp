@@ -186,10 +186,8 @@ bool XrFrames::locate(const Turn& turn, std::array<XrEye, kXrEyes>& eyes) {
   session_.note(located);
   if (XR_FAILED(located) || count != kXrEyes) return false;
   for (std::size_t i = 0; i < kXrEyes; ++i) {
-    XrSpaceLocation location{};
-    location.locationFlags = state.viewStateFlags;  // the same bits
-    location.pose = views[i].pose;
-    const auto place = place_of(location, false);
+    // The flags of views have the same bits.
+    const auto place = place_of(state.viewStateFlags, views[i].pose, false);
     const XrFovf& fov = views[i].fov;
     const bool is_open = fov.angleRight - fov.angleLeft > 0.1f &&
                          fov.angleUp - fov.angleDown > 0.1f && std::abs(fov.angleLeft) < 1.5f &&

@@ -66,13 +66,6 @@ constexpr std::array<JointOfBone, kBoneCount> kBd{{
     {Bone::kRightToes, XR_BODY_JOINT_RIGHT_FOOT_BD},
 }};
 
-std::optional<XrPlace> place_of_joint(XrSpaceLocationFlags flags, const XrPosef& pose) {
-  XrSpaceLocation location{};
-  location.locationFlags = flags;
-  location.pose = pose;
-  return place_of(location, false);
-}
-
 // The turn about the vertical that brings a direction to the left (+X).
 Quaternionf turn_to_left(const Vector3f& left) {
   const float angle = std::atan2(left.z(), left.x());
@@ -145,14 +138,14 @@ bool XrBody::learn_axes() {
   if (XR_FAILED(skeleton_fb_(fb_, &info))) return false;
   const XrSpaceLocationFlags kAll =
       XR_SPACE_LOCATION_POSITION_VALID_BIT | XR_SPACE_LOCATION_ORIENTATION_VALID_BIT;
-  const auto left = place_of_joint(
-      kAll, skeleton_[static_cast<std::size_t>(XR_BODY_JOINT_LEFT_ARM_LOWER_FB)].pose);
-  const auto right = place_of_joint(
-      kAll, skeleton_[static_cast<std::size_t>(XR_BODY_JOINT_RIGHT_ARM_LOWER_FB)].pose);
+  const auto left = place_of(
+      kAll, skeleton_[static_cast<std::size_t>(XR_BODY_JOINT_LEFT_ARM_LOWER_FB)].pose, false);
+  const auto right = place_of(
+      kAll, skeleton_[static_cast<std::size_t>(XR_BODY_JOINT_RIGHT_ARM_LOWER_FB)].pose, false);
   if (!left || !right) return false;
   const Quaternionf turn = turn_to_left(left->p_m - right->p_m);
   for (std::size_t i = 0; i < skeleton_.size(); ++i) {
-    const auto place = place_of_joint(kAll, skeleton_[i].pose);
+    const auto place = place_of(kAll, skeleton_[i].pose, false);
     R_JB_[i] = place ? (turn * place->R).conjugate() : Quaternionf::Identity();
   }
   return true;
@@ -176,7 +169,7 @@ bool XrBody::see_fb(XrTime time, FigureFrame& figure, XrTime& seen) {
   if (!has_axes_) return false;
   const auto put = [&](const JointOfBone& each) {
     const auto joint = static_cast<std::size_t>(each.joint);
-    if (const auto place = place_of_joint(located_[joint].locationFlags, located_[joint].pose))
+    if (const auto place = place_of(located_[joint].locationFlags, located_[joint].pose, false))
       figure.put(each.bone, place->p_m, (place->R * R_JB_[joint]).normalized());
   };
   for (const JointOfBone& each : kUpperFb) put(each);
@@ -198,7 +191,7 @@ bool XrBody::see_bd(XrTime time, FigureFrame& figure) {
   if (XR_FAILED(locate_bd_(bd_, &info, &locations))) return false;
   for (const JointOfBone& each : kBd) {
     const XrBodyJointLocationBD& joint = located[static_cast<std::size_t>(each.joint)];
-    if (const auto place = place_of_joint(joint.locationFlags, joint.pose))
+    if (const auto place = place_of(joint.locationFlags, joint.pose, false))
       figure.put(each.bone, place->p_m, place->R);
   }
   if (!figure.has(Bone::kHips) || !figure.has(Bone::kHead) || !figure.has(Bone::kLeftUpperLeg) ||

@@ -127,10 +127,7 @@ std::optional<XrHandJoints> XrHands::see(XrHand hand, XrTime time) {
     return std::nullopt;
   XrHandJoints joints;
   for (std::size_t i = 0; i < located.size(); ++i) {
-    XrSpaceLocation location{};
-    location.locationFlags = located[i].locationFlags;
-    location.pose = located[i].pose;
-    const auto place = place_of(location, false);
+    const auto place = place_of(located[i].locationFlags, located[i].pose, false);
     if (!place) return std::nullopt;
     joints.joints[i] = *place;
   }

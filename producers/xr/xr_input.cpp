@@ -27,20 +27,21 @@ constexpr std::array<Role, 8> kRoles{{
 std::size_t index_of(XrHand hand) { return static_cast<std::size_t>(hand); }
 
 // Whether the runtime says that there is a place.
-bool is_told(const XrSpaceLocation& location, bool must_be_tracked) {
+bool is_told(XrSpaceLocationFlags flags, bool must_be_tracked) {
   constexpr XrSpaceLocationFlags kValid =
       XR_SPACE_LOCATION_POSITION_VALID_BIT | XR_SPACE_LOCATION_ORIENTATION_VALID_BIT;
   const XrSpaceLocationFlags wanted =
       kValid | (must_be_tracked ? XR_SPACE_LOCATION_POSITION_TRACKED_BIT : 0);
-  return (location.locationFlags & wanted) == wanted;
+  return (flags & wanted) == wanted;
 }
 
 }  // namespace
 
-std::optional<XrPlace> place_of(const XrSpaceLocation& location, bool must_be_tracked) {
-  if (!is_told(location, must_be_tracked)) return std::nullopt;
-  const XrVector3f& p = location.pose.position;
-  const XrQuaternionf& R = location.pose.orientation;
+std::optional<XrPlace> place_of(XrSpaceLocationFlags flags, const XrPosef& pose,
+                                bool must_be_tracked) {
+  if (!is_told(flags, must_be_tracked)) return std::nullopt;
+  const XrVector3f& p = pose.position;
+  const XrQuaternionf& R = pose.orientation;
   XrPlace place{{p.x, p.y, p.z}, {R.w, R.x, R.y, R.z}};
   // A runtime's numbers come from outside, as bytes of the net do.
   if (!place.p_m.allFinite() || place.p_m.norm() > kMostBaseDistance_m) return std::nullopt;
@@ -158,7 +159,7 @@ Result<void> XrInput::make_spaces() {
 }
 
 bool XrInput::suggest(const char* profile,
-                      std::initializer_list<std::pair<XrAction, const char*>> bindings) const {
+                      const std::vector<std::pair<XrAction, std::string>>& bindings) const {
   const auto profile_path = path(std::string("/interaction_profiles/") + profile);
   if (!profile_path) return false;
   std::vector<XrActionSuggestedBinding> suggested;
@@ -209,16 +210,12 @@ Result<void> XrInput::suggest_all() const {
        DANCE_XR_HANDS(haptic_, "/output/haptic")});
   if (taken == 0)
     return fail("the headset's runtime takes none of the controllers that are known here");
-  if (tracker_count_ > 0)
-    suggest("htc/vive_tracker_htcx",
-            {{worn_, "/user/vive_tracker_htcx/role/waist/input/grip/pose"},
-             {worn_, "/user/vive_tracker_htcx/role/left_foot/input/grip/pose"},
-             {worn_, "/user/vive_tracker_htcx/role/right_foot/input/grip/pose"},
-             {worn_, "/user/vive_tracker_htcx/role/left_elbow/input/grip/pose"},
-             {worn_, "/user/vive_tracker_htcx/role/right_elbow/input/grip/pose"},
-             {worn_, "/user/vive_tracker_htcx/role/left_knee/input/grip/pose"},
-             {worn_, "/user/vive_tracker_htcx/role/right_knee/input/grip/pose"},
-             {worn_, "/user/vive_tracker_htcx/role/chest/input/grip/pose"}});
+  if (tracker_count_ > 0) {
+    std::vector<std::pair<XrAction, std::string>> worn;
+    for (const Role& role : kRoles)
+      worn.emplace_back(worn_, std::string(role.path) + "/input/grip/pose");
+    suggest("htc/vive_tracker_htcx", worn);
+  }
   return {};
 }
 
@@ -244,7 +241,7 @@ std::optional<XrPlace> XrInput::locate(XrSpace space, XrTime time, bool must_be_
     return std::nullopt;
   }
   const auto place = place_of(location, must_be_tracked);
-  if (!place && is_told(location, must_be_tracked)) ++bad_places_;
+  if (!place && is_told(location.locationFlags, must_be_tracked)) ++bad_places_;
   return place;
 }
 
@@ -264,11 +261,16 @@ std::optional<XrPlace> XrInput::tracker(TrackedPoint point, XrTime time) const {
   return std::nullopt;
 }
 
-bool XrInput::state_of(XrAction action, XrHand hand) const {
+XrActionStateGetInfo XrInput::state_info(XrAction action, XrHand hand) const {
   XrActionStateGetInfo info{};
   info.type = XR_TYPE_ACTION_STATE_GET_INFO;
   info.action = action;
   info.subactionPath = hands_[index_of(hand)];
+  return info;
+}
+
+bool XrInput::state_of(XrAction action, XrHand hand) const {
+  const XrActionStateGetInfo info = state_info(action, hand);
   XrActionStateBoolean state{};
   state.type = XR_TYPE_ACTION_STATE_BOOLEAN;
   return XR_SUCCEEDED(xrGetActionStateBoolean(session_.handle(), &info, &state)) &&
@@ -276,10 +278,7 @@ bool XrInput::state_of(XrAction action, XrHand hand) const {
 }
 
 bool XrInput::holds(XrHand hand) const {
-  XrActionStateGetInfo info{};
-  info.type = XR_TYPE_ACTION_STATE_GET_INFO;
-  info.action = grip_;
-  info.subactionPath = hands_[index_of(hand)];
+  const XrActionStateGetInfo info = state_info(grip_, hand);
   XrActionStatePose state{};
   state.type = XR_TYPE_ACTION_STATE_POSE;
   return XR_SUCCEEDED(xrGetActionStatePose(session_.handle(), &info, &state)) &&
@@ -289,11 +288,16 @@ bool XrInput::holds(XrHand hand) const {
 bool XrInput::is_pressed(XrHand hand) const { return state_of(press_, hand); }
 bool XrInput::is_menu_pressed(XrHand hand) const { return state_of(menu_, hand); }
 
-bool XrInput::vibrate(XrHand hand, float amplitude, Duration duration, float frequency_hz) const {
+XrHapticActionInfo XrInput::haptic_info(XrHand hand) const {
   XrHapticActionInfo info{};
   info.type = XR_TYPE_HAPTIC_ACTION_INFO;
   info.action = haptic_;
   info.subactionPath = hands_[index_of(hand)];
+  return info;
+}
+
+bool XrInput::vibrate(XrHand hand, float amplitude, Duration duration, float frequency_hz) const {
+  const XrHapticActionInfo info = haptic_info(hand);
   XrHapticVibration vibration{};
   vibration.type = XR_TYPE_HAPTIC_VIBRATION;
   vibration.duration = duration.count_ns();
@@ -305,10 +309,7 @@ bool XrInput::vibrate(XrHand hand, float amplitude, Duration duration, float fre
 }
 
 void XrInput::stop(XrHand hand) const {
-  XrHapticActionInfo info{};
-  info.type = XR_TYPE_HAPTIC_ACTION_INFO;
-  info.action = haptic_;
-  info.subactionPath = hands_[index_of(hand)];
+  const XrHapticActionInfo info = haptic_info(hand);
   xrStopHapticFeedback(session_.handle(), &info);
 }
 

@@ -13,6 +13,9 @@
 #include <array>
 #include <atomic>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "core/base/time.h"
 #include "producers/trackers/tracker_frame.h"
@@ -32,7 +35,11 @@ struct XrPlace {
 };
 
 // nullopt where it is not known, is guessed although `must_be_tracked`, or is no place at all.
-std::optional<XrPlace> place_of(const XrSpaceLocation& location, bool must_be_tracked);
+std::optional<XrPlace> place_of(XrSpaceLocationFlags flags, const XrPosef& pose,
+                                bool must_be_tracked);
+inline std::optional<XrPlace> place_of(const XrSpaceLocation& location, bool must_be_tracked) {
+  return place_of(location.locationFlags, location.pose, must_be_tracked);
+}
 
 class XrInput {
  public:
@@ -79,9 +86,11 @@ class XrInput {
   Result<void> make_spaces();
   // Whether the runtime knows the profile.
   bool suggest(const char* profile,
-               std::initializer_list<std::pair<XrAction, const char*>> bindings) const;
+               const std::vector<std::pair<XrAction, std::string>>& bindings) const;
   Result<void> suggest_all() const;
   std::optional<XrPlace> locate(XrSpace space, XrTime time, bool must_be_tracked) const;
+  XrActionStateGetInfo state_info(XrAction action, XrHand hand) const;
+  XrHapticActionInfo haptic_info(XrHand hand) const;
   bool state_of(XrAction action, XrHand hand) const;
 
   const XrDancerSession& session_;
