@@ -2,19 +2,19 @@
 
 #include <bit>
 #include <cmath>
-#include <string>
 
 #include "core/base/assert.h"
 #include "core/base/byte_reader.h"
 #include "core/base/byte_writer.h"
 #include "core/base/fnv1a.h"
+#include "core/base/model_file.h"
 #include "core/codec/exact/exact_math.h"
 
 namespace dance {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x4d504344;  // "DCPM" as bytes
-constexpr std::uint16_t kVersion = 1;
+// "DCPM" as bytes.
+constexpr ModelFileKind kPoseModelFile{0x4d504344, 1, "the pose codec", "dance codec train"};
 
 // Visits every number of a model in the order of the file.
 template <class Model, class OnHalf, class OnWord, class OnByte>
@@ -76,8 +76,8 @@ float from_half(std::uint16_t half) {
 std::vector<std::uint8_t> write_model(const PoseModel& model) {
   std::vector<std::uint8_t> file(sizeof(PoseModel));
   ByteWriter out(file);
-  out.u32(kMagic);
-  out.u16(kVersion);
+  out.u32(kPoseModelFile.magic);
+  out.u16(kPoseModelFile.version);
   visit(
       model, [&](float x) { out.u16(to_half(x)); }, [&](std::uint32_t x) { out.u32(x); },
       [&](std::uint8_t x) { out.u8(x); });
@@ -89,13 +89,7 @@ std::vector<std::uint8_t> write_model(const PoseModel& model) {
 Result<std::shared_ptr<const PoseModel>> read_model(std::span<const std::uint8_t> file) {
   auto model = std::make_shared<PoseModel>();
   ByteReader in(file);
-  if (in.u32() != kMagic)
-    return fail("this is not a model of the pose codec: make one with dance codec train");
-  const std::uint16_t version = in.u16();
-  if (version != kVersion)
-    return fail("the model is of version " + std::to_string(version) +
-                ", this build reads version " + std::to_string(kVersion) +
-                ": train it again with dance codec train");
+  if (auto head = kPoseModelFile.read_head(in); !head) return tl::make_unexpected(head.error());
   visit(
       *model, [&](float& x) { x = from_half(in.u16()); }, [&](std::uint32_t& x) { x = in.u32(); },
       [&](std::uint8_t& x) { x = in.u8(); });
@@ -116,9 +110,7 @@ Result<std::shared_ptr<const PoseModel>> read_model(std::span<const std::uint8_t
     const float n = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
     is_finite = is_finite && n > 0.5f && n < 2.0f;
   }
-  if (!is_whole || !is_finite)
-    return fail("the model is damaged (" + std::to_string(file.size()) +
-                " bytes): fetch it again, or train it with dance codec train");
+  if (!is_whole || !is_finite) return kPoseModelFile.damaged(file.size());
   model->name = name_of(file);
   return std::shared_ptr<const PoseModel>(std::move(model));
 }

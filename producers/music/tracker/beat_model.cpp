@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <string>
 
 #include "core/base/assert.h"
 #include "core/base/byte_reader.h"
 #include "core/base/byte_writer.h"
 #include "core/base/fnv1a.h"
+#include "core/base/model_file.h"
 
 namespace dance {
 namespace {
 
-constexpr std::uint32_t kBeatMagic = 0x54424744;  // "DGBT" as bytes
-constexpr std::uint16_t kBeatVersion = 3;
+// "DGBT" as bytes.
+constexpr ModelFileKind kBeatModelFile{0x54424744, 3, "beats", "dance music train"};
 constexpr float kMostWeight = 1e4f;
 constexpr int kLeastPatternTempo_bpm = 40;
 constexpr int kMostPatternTempo_bpm = 400;
@@ -47,8 +47,8 @@ std::vector<std::uint8_t> write_beat_model(const BeatModel& model) {
   DANCE_ASSERT(!model.patterns.empty() && model.patterns.size() <= BeatModel::kMostPatterns);
   std::vector<std::uint8_t> file(kMostBeatModelBytes);
   ByteWriter out(file);
-  out.u32(kBeatMagic);
-  out.u16(kBeatVersion);
+  out.u32(kBeatModelFile.magic);
+  out.u16(kBeatModelFile.version);
   out.u16(static_cast<std::uint16_t>(model.patterns.size()));
   const auto put = [&](const float& x) { out.u32(std::bit_cast<std::uint32_t>(x)); };
   visit_net(model.net, put);
@@ -65,13 +65,7 @@ std::vector<std::uint8_t> write_beat_model(const BeatModel& model) {
 
 Result<std::shared_ptr<const BeatModel>> read_beat_model(std::span<const std::uint8_t> file) {
   ByteReader in(file);
-  if (in.u32() != kBeatMagic)
-    return fail("this is not a model of beats: make one with dance music train");
-  const std::uint16_t version = in.u16();
-  if (version != kBeatVersion)
-    return fail("the model is of version " + std::to_string(version) +
-                ", this build reads version " + std::to_string(kBeatVersion) +
-                ": train it again with dance music train");
+  if (auto head = kBeatModelFile.read_head(in); !head) return tl::make_unexpected(head.error());
   auto model = std::make_shared<BeatModel>();
   const std::size_t patterns = in.u16();
   bool is_whole = patterns > 0 && patterns <= BeatModel::kMostPatterns;
@@ -96,9 +90,7 @@ Result<std::shared_ptr<const BeatModel>> read_beat_model(std::span<const std::ui
     }
     is_whole = is_whole && in.is_exhausted();
   }
-  if (!is_whole)
-    return fail("the model is damaged (" + std::to_string(file.size()) +
-                " bytes): fetch it again, or train it with dance music train");
+  if (!is_whole) return kBeatModelFile.damaged(file.size());
   model->name = name_of(file);
   return std::shared_ptr<const BeatModel>(std::move(model));
 }

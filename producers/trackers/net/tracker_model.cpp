@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <string>
 
 #include "core/base/assert.h"
 #include "core/base/byte_reader.h"
 #include "core/base/byte_writer.h"
 #include "core/base/fnv1a.h"
+#include "core/base/model_file.h"
 
 namespace dance {
 namespace {
 
-constexpr std::uint32_t kTrackerMagic = 0x52544744;  // "DGTR" as bytes
-constexpr std::uint16_t kTrackerVersion = 1;
+// "DGTR" as bytes.
+constexpr ModelFileKind kTrackerModelFile{0x52544744, 1, "tracked bodies", "dance trackers train"};
 constexpr float kMostTrackerWeight = 1e3f;
 constexpr float kSteps = 32767.0f;
 constexpr std::size_t kMostTrackerModelBytes = 1 << 20;
@@ -55,8 +55,8 @@ bool are_our_sizes(ByteReader& in) {
 std::vector<std::uint8_t> write_tracker_model(const TrackerModel& model) {
   std::vector<std::uint8_t> file(kMostTrackerModelBytes);
   ByteWriter out(file);
-  out.u32(kTrackerMagic);
-  out.u16(kTrackerVersion);
+  out.u32(kTrackerModelFile.magic);
+  out.u16(kTrackerModelFile.version);
   write_sizes(out);
   visit_columns(model.net, [&](const float* column, Eigen::Index rows) {
     float most = 0.0f;
@@ -75,13 +75,7 @@ std::vector<std::uint8_t> write_tracker_model(const TrackerModel& model) {
 
 Result<std::shared_ptr<const TrackerModel>> read_tracker_model(std::span<const std::uint8_t> file) {
   ByteReader in(file);
-  if (in.u32() != kTrackerMagic)
-    return fail("this is not a model of tracked bodies: make one with dance trackers train");
-  const std::uint16_t version = in.u16();
-  if (version != kTrackerVersion)
-    return fail("the model is of version " + std::to_string(version) +
-                ", this build reads version " + std::to_string(kTrackerVersion) +
-                ": train it again with dance trackers train");
+  if (auto head = kTrackerModelFile.read_head(in); !head) return tl::make_unexpected(head.error());
   auto model = std::make_shared<TrackerModel>();
   bool is_whole = are_our_sizes(in);
   if (is_whole) {
@@ -95,9 +89,7 @@ Result<std::shared_ptr<const TrackerModel>> read_tracker_model(std::span<const s
     });
     is_whole = is_whole && in.is_exhausted();
   }
-  if (!is_whole)
-    return fail("the model is damaged (" + std::to_string(file.size()) +
-                " bytes): fetch it again, or train it with dance trackers train");
+  if (!is_whole) return kTrackerModelFile.damaged(file.size());
   model->name = folded(fnv1a(file));
   return std::shared_ptr<const TrackerModel>(std::move(model));
 }

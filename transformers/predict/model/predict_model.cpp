@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <string>
 
 #include "core/base/assert.h"
 #include "core/base/byte_reader.h"
 #include "core/base/byte_writer.h"
 #include "core/base/fnv1a.h"
+#include "core/base/model_file.h"
 
 namespace dance {
 namespace {
 
-constexpr std::uint32_t kPredictMagic = 0x44505044;  // "DPPD" as bytes
-constexpr std::uint16_t kPredictVersion = 2;
+// "DPPD" as bytes.
+constexpr ModelFileKind kPredictModelFile{0x44505044, 2, "prediction", "dance predict train"};
 constexpr float kMostNumber = 1e6f;
 constexpr float kSameBone_m = 0.004f;
 
@@ -74,8 +74,8 @@ bool PredictModel::knows(const Skeleton& skeleton) const {
 std::vector<std::uint8_t> write_predict_model(const PredictModel& model) {
   std::vector<std::uint8_t> file(sizeof(PredictModel) + (std::size_t{1} << 23));
   ByteWriter out(file);
-  out.u32(kPredictMagic);
-  out.u16(kPredictVersion);
+  out.u32(kPredictModelFile.magic);
+  out.u16(kPredictModelFile.version);
   out.u16(static_cast<std::uint16_t>(model.dancers.size()));
   const auto put = [&](float x) { out.u32(std::bit_cast<std::uint32_t>(x)); };
   visit_floats(model, put);
@@ -95,13 +95,7 @@ std::vector<std::uint8_t> write_predict_model(const PredictModel& model) {
 Result<std::shared_ptr<const PredictModel>> read_predict_model(std::span<const std::uint8_t> file) {
   auto model = std::make_shared<PredictModel>();
   ByteReader in(file);
-  if (in.u32() != kPredictMagic)
-    return fail("this is not a model of prediction: make one with dance predict train");
-  const std::uint16_t version = in.u16();
-  if (version != kPredictVersion)
-    return fail("the model is of version " + std::to_string(version) +
-                ", this build reads version " + std::to_string(kPredictVersion) +
-                ": train it again with dance predict train");
+  if (auto head = kPredictModelFile.read_head(in); !head) return tl::make_unexpected(head.error());
   const std::size_t dancers = in.u16();
   const auto get = [&](float& x) { x = std::bit_cast<float>(in.u32()); };
   bool is_whole = dancers <= kMostKnownDancers;
@@ -131,9 +125,7 @@ Result<std::shared_ptr<const PredictModel>> read_predict_model(std::span<const s
   for (const float x : model->horizon_scale) is_whole = is_whole && x >= 1e-4f;
   is_whole =
       is_whole && model->tremble_rad[0] >= 0.0f && model->tremble_rad[1] > model->tremble_rad[0];
-  if (!is_whole)
-    return fail("the model is damaged (" + std::to_string(file.size()) +
-                " bytes): fetch it again, or train it with dance predict train");
+  if (!is_whole) return kPredictModelFile.damaged(file.size());
   for (auto& q : model->centres) q.normalize();
   model->name = name_of_file(file);
   return std::shared_ptr<const PredictModel>(std::move(model));
