@@ -24,6 +24,7 @@ class RhythmTrainer {
   RhythmTrainer(const std::vector<WeightedRhythm>& songs, std::uint64_t seed)
       : random_(seed),
         sequence_steps_(steps_of(songs)),
+        adam_(places_.count),
         halves_{RhythmPasses(places_, sequence_steps_), RhythmPasses(places_, sequence_steps_)} {
     for (const auto& [song, weight] : songs) {
       songs_.push_back(song);
@@ -33,22 +34,10 @@ class RhythmTrainer {
     DANCE_ASSERT(!songs_.empty());
     find_scale();
     for (float& x : noise_) x = static_cast<float>(random_.normal());
-    parameters_.resize(places_.count);
-    mean_gradient_.resize(places_.count);
-    square_gradient_.resize(places_.count);
-    const auto draw = [&](std::size_t at, std::size_t n, double spread) {
-      for (std::size_t i = 0; i < n; ++i)
-        parameters_[at + i] = static_cast<float>(spread * random_.normal());
-    };
-    for (std::size_t l = 0; l < RhythmNet::kLayers; ++l) {
-      const std::size_t inner = RhythmPlaces::inputs(l);
-      draw(places_.layers[l].in, inner * kRhythmGates, 1.0 / std::sqrt(static_cast<double>(inner)));
-      draw(places_.layers[l].again, kRhythmUnits * kRhythmGates,
-           1.0 / std::sqrt(static_cast<double>(kRhythmUnits)));
-      // Units remember at first.
-      std::fill_n(&parameters_[places_.layers[l].in_bias], kRhythmUnits, 1.0f);
-    }
-    draw(places_.out, kRhythmUnits * kRhythmWideAnswers, 0.05);
+    parameters_ = places_.drawn(random_);
+    // Units remember at first.
+    for (const RhythmPlaces::Layer& layer : places_.layers)
+      std::fill_n(&parameters_[layer.in_bias], kRhythmUnits, 1.0f);
   }
 
   RhythmNet train(const RhythmFit& fit) {
@@ -136,55 +125,21 @@ class RhythmTrainer {
 
   void learn(double rate) {
     const double weights = std::max(halves_[0].weights + halves_[1].weights, 1.0);
-    double square = 0.0;
     RhythmFloats& g = halves_[0].gradient;
-    for (std::size_t i = 0; i < g.size(); ++i) {
+    for (std::size_t i = 0; i < g.size(); ++i)
       g[i] = static_cast<float>((g[i] + halves_[1].gradient[i]) / weights);
-      square += static_cast<double>(g[i]) * static_cast<double>(g[i]);
-    }
-    DANCE_ASSERT(std::isfinite(square));
-    const auto shrink =
-        static_cast<float>(std::min(1.0, kMostGradient / (std::sqrt(square) + 1e-9)));
-    ++steps_;
-    const double mean_part = 1.0 - std::pow(0.9, steps_),
-                 square_part = 1.0 - std::pow(0.999, steps_);
-    for (std::size_t i = 0; i < g.size(); ++i) {
-      const float x = shrink * g[i];
-      mean_gradient_[i] += 0.1f * (x - mean_gradient_[i]);
-      square_gradient_[i] += 0.001f * (x * x - square_gradient_[i]);
-      const double step =
-          rate * (static_cast<double>(mean_gradient_[i]) / mean_part) /
-          (std::sqrt(static_cast<double>(square_gradient_[i]) / square_part) + 1e-8);
-      parameters_[i] -= static_cast<float>(step);
-    }
+    adam_.see(g, kMostGradient);
+    for (std::size_t i = 0; i < g.size(); ++i)
+      parameters_[i] -= static_cast<float>(rate * adam_.mean(i) / adam_.spread(i));
   }
 
   // Takes features as they are.
   RhythmNet net() const {
-    RhythmNet net;
-    const auto matrix = [&](std::size_t at, std::size_t columns, Eigen::MatrixXf& to) {
-      for (Eigen::Index i = 0; i < to.rows(); ++i)
-        for (Eigen::Index j = 0; j < to.cols(); ++j)
-          to(i, j) =
-              parameters_[at + static_cast<std::size_t>(j) * columns + static_cast<std::size_t>(i)];
-    };
-    const auto vector = [&](std::size_t at, Eigen::VectorXf& to) {
-      for (Eigen::Index i = 0; i < to.size(); ++i)
-        to[i] = parameters_[at + static_cast<std::size_t>(i)];
-    };
-    for (std::size_t l = 0; l < RhythmNet::kLayers; ++l) {
-      RecurrentLayer& layer = net.layers[l];
-      matrix(places_.layers[l].in, kRhythmGates, layer.in);
-      matrix(places_.layers[l].again, kRhythmGates, layer.again);
-      vector(places_.layers[l].in_bias, layer.in_bias);
-      vector(places_.layers[l].again_bias, layer.again_bias);
-    }
+    RhythmNet net = places_.net<RhythmNet>(parameters_);
     for (Eigen::Index i = 0; i < RhythmNet::kInputs; ++i) {
       net.layers[0].in.col(i) *= scale_[static_cast<std::size_t>(i)];
       net.layers[0].in_bias -= net.layers[0].in.col(i) * mean_[static_cast<std::size_t>(i)];
     }
-    matrix(places_.out, kRhythmWideAnswers, net.out);
-    vector(places_.out_bias, net.out_bias);
     return net;
   }
 
@@ -196,8 +151,8 @@ class RhythmTrainer {
   double total_ = 0.0;
   std::array<float, RhythmNet::kInputs> mean_{}, scale_{};
   RhythmFloats noise_ = RhythmFloats(1 << 20);
-  RhythmFloats parameters_, mean_gradient_, square_gradient_;
-  int steps_ = 0;
+  RhythmFloats parameters_;
+  ClippedAdam adam_;
   std::array<RhythmPasses, 2> halves_;
 };
 

@@ -16,6 +16,7 @@
 #include "core/base/random.h"
 #include "research/beats/rhythm_net_fit.h"
 #include "research/matrix_product.h"
+#include "research/recurrent_fit.h"
 
 namespace dance {
 
@@ -32,32 +33,8 @@ constexpr float kTempoWeight = 0.25f;  // against a moment's class
 
 using RhythmFloats = std::vector<float>;
 
-// All parameters in one row, so that the optimiser has one loop. Matrices are inputs x outputs, by
-// rows.
-struct RhythmPlaces {
-  struct Layer {
-    std::size_t in, again, in_bias, again_bias;
-  };
-  std::array<Layer, RhythmNet::kLayers> layers;
-  std::size_t out, out_bias, count = 0;
-
-  static constexpr std::size_t inputs(std::size_t layer) {
-    return layer == 0 ? kRhythmWideInputs : kRhythmUnits;
-  }
-
-  RhythmPlaces() {
-    const auto take = [&](std::size_t n) {
-      const std::size_t at = count;
-      count += n;
-      return at;
-    };
-    for (std::size_t l = 0; l < layers.size(); ++l)
-      layers[l] = {take(inputs(l) * kRhythmGates), take(kRhythmUnits * kRhythmGates),
-                   take(kRhythmGates), take(kRhythmGates)};
-    out = take(kRhythmUnits * kRhythmWideAnswers);
-    out_bias = take(kRhythmWideAnswers);
-  }
-};
+using RhythmPlaces =
+    RecurrentPlaces<kRhythmWideInputs, kRhythmUnits, kRhythmWideAnswers, RhythmNet::kLayers>;
 
 inline float rhythm_sigmoid(float x) { return 1.0f / (1.0f + std::exp(-x)); }
 

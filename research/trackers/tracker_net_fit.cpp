@@ -22,10 +22,7 @@ class TrackerTrainer {
   TrackerTrainer(const std::vector<TrackerDance>& dances, std::uint64_t seed)
       : dances_(dances),
         random_(seed),
-        parameters_(places_.count),
-        mean_(places_.count),
-        gradient_mean_(places_.count),
-        gradient_square_(places_.count),
+        adam_(places_.count),
         halves_{TrackerPasses(places_), TrackerPasses(places_)} {
     for (const TrackerDance& dance : dances_) {
       DANCE_ASSERT(dance.frames.size() > kTrackerSteps + 1);
@@ -33,18 +30,7 @@ class TrackerTrainer {
       until_.push_back(total_);
     }
     DANCE_ASSERT(!dances_.empty());
-    const auto draw = [&](std::size_t at, std::size_t n, double spread) {
-      for (std::size_t i = 0; i < n; ++i)
-        parameters_[at + i] = static_cast<float>(spread * random_.normal());
-    };
-    for (std::size_t l = 0; l < places_.layers.size(); ++l) {
-      const std::size_t inner = TrackerParameters::inputs(l);
-      draw(places_.layers[l].in, inner * kTrackerGates,
-           1.0 / std::sqrt(static_cast<double>(inner)));
-      draw(places_.layers[l].again, kTrackerUnits * kTrackerGates,
-           1.0 / std::sqrt(static_cast<double>(kTrackerUnits)));
-    }
-    draw(places_.out, kTrackerUnits * kTrackerWideOutputs, 0.05);
+    parameters_ = places_.drawn(random_);
     mean_ = parameters_;
   }
 
@@ -73,7 +59,7 @@ class TrackerTrainer {
       fit.tell(text);
       loss = ankles = right = 0.0;
     }
-    return places_.net(mean_);
+    return places_.net<TrackerNet>(mean_);
   }
 
  private:
@@ -98,26 +84,12 @@ class TrackerTrainer {
   }
 
   void learn(double rate) {
-    double square = 0.0;
     TrackerFloats& g = halves_[0].gradient;
+    for (std::size_t i = 0; i < g.size(); ++i) g[i] = 0.5f * (g[i] + halves_[1].gradient[i]);
+    adam_.see(g, kMostGradient);
+    const double kept = std::min(kMeanOver, (adam_.steps() + 1.0) / (adam_.steps() + 10.0));
     for (std::size_t i = 0; i < g.size(); ++i) {
-      g[i] = 0.5f * (g[i] + halves_[1].gradient[i]);
-      square += static_cast<double>(g[i]) * static_cast<double>(g[i]);
-    }
-    DANCE_ASSERT(std::isfinite(square));
-    const auto shrink =
-        static_cast<float>(std::min(1.0, kMostGradient / (std::sqrt(square) + 1e-9)));
-    ++steps_;
-    const double mean_part = 1.0 - std::pow(0.9, steps_),
-                 square_part = 1.0 - std::pow(0.999, steps_);
-    const double kept = std::min(kMeanOver, (steps_ + 1.0) / (steps_ + 10.0));
-    for (std::size_t i = 0; i < g.size(); ++i) {
-      const float x = shrink * g[i];
-      gradient_mean_[i] += 0.1f * (x - gradient_mean_[i]);
-      gradient_square_[i] += 0.001f * (x * x - gradient_square_[i]);
-      const double step =
-          (static_cast<double>(gradient_mean_[i]) / mean_part) /
-          (std::sqrt(static_cast<double>(gradient_square_[i]) / square_part) + 1e-8);
+      const double step = adam_.mean(i) / adam_.spread(i);
       parameters_[i] -=
           static_cast<float>(rate * (step + kDecay * static_cast<double>(parameters_[i])));
       mean_[i] += static_cast<float>(1.0 - kept) * (parameters_[i] - mean_[i]);
@@ -129,8 +101,8 @@ class TrackerTrainer {
   Random random_;
   std::vector<double> until_;
   double total_ = 0.0;
-  TrackerFloats parameters_, mean_, gradient_mean_, gradient_square_;
-  int steps_ = 0;
+  TrackerFloats parameters_, mean_;
+  ClippedAdam adam_;
   std::array<TrackerPasses, 2> halves_;
 };
 

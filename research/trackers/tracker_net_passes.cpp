@@ -39,40 +39,6 @@ void add_outer(const float* a, std::size_t a_wide, const float* b, std::size_t b
 
 }  // namespace
 
-TrackerParameters::TrackerParameters() {
-  const auto take = [&](std::size_t n) {
-    const std::size_t at = count;
-    count += n;
-    return at;
-  };
-  for (std::size_t l = 0; l < layers.size(); ++l)
-    layers[l] = {take(inputs(l) * kTrackerGates), take(kTrackerUnits * kTrackerGates),
-                 take(kTrackerGates), take(kTrackerGates)};
-  out = take(kTrackerUnits * kTrackerWideOutputs);
-  out_bias = take(kTrackerWideOutputs);
-}
-
-TrackerNet TrackerParameters::net(const TrackerFloats& values) const {
-  TrackerNet net;
-  const auto matrix = [&](std::size_t at, std::size_t wide, Eigen::MatrixXf& to) {
-    for (Eigen::Index i = 0; i < to.rows(); ++i)
-      for (Eigen::Index j = 0; j < to.cols(); ++j)
-        to(i, j) = values[at + static_cast<std::size_t>(j) * wide + static_cast<std::size_t>(i)];
-  };
-  const auto vector = [&](std::size_t at, Eigen::VectorXf& to) {
-    for (Eigen::Index i = 0; i < to.size(); ++i) to[i] = values[at + static_cast<std::size_t>(i)];
-  };
-  for (std::size_t l = 0; l < layers.size(); ++l) {
-    matrix(layers[l].in, kTrackerGates, net.layers[l].in);
-    matrix(layers[l].again, kTrackerGates, net.layers[l].again);
-    vector(layers[l].in_bias, net.layers[l].in_bias);
-    vector(layers[l].again_bias, net.layers[l].again_bias);
-  }
-  matrix(out, kTrackerWideOutputs, net.out);
-  vector(out_bias, net.out_bias);
-  return net;
-}
-
 TrackerPasses::TrackerPasses(const TrackerParameters& places)
     : inputs(kTrackerRows * kTrackerWideInputs),
       targets(kTrackerRows * kTrackerWideOutputs),

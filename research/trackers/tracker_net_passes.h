@@ -12,6 +12,7 @@
 
 #include "core/base/random.h"
 #include "producers/trackers/net/tracker_net.h"
+#include "research/recurrent_fit.h"
 
 namespace dance {
 
@@ -23,21 +24,8 @@ constexpr std::size_t kTrackerRows = kTrackerSteps * kTrackerHalf;
 
 using TrackerFloats = std::vector<float>;
 
-// All parameters in one row, so that the optimiser has one loop. Matrices are inputs x outputs, by
-// rows.
-struct TrackerParameters {
-  struct Layer {
-    std::size_t in, again, in_bias, again_bias;
-  };
-  std::array<Layer, TrackerNet::kLayers> layers;
-  std::size_t out, out_bias, count = 0;
-
-  static constexpr std::size_t inputs(std::size_t layer) {
-    return layer == 0 ? kTrackerWideInputs : kTrackerUnits;
-  }
-  TrackerParameters();
-  TrackerNet net(const TrackerFloats& values) const;
-};
+using TrackerParameters =
+    RecurrentPlaces<kTrackerWideInputs, kTrackerUnits, kTrackerWideOutputs, TrackerNet::kLayers>;
 
 class TrackerPasses {
  public:
