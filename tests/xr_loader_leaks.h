@@ -1,9 +1,10 @@
 // OpenXR's loader 1.0.20 keeps what it made for each instance: in one source of each test program
 // that loads it, so that the address sanitizer reports leaks of ours alone.
 //
-// Ownership: none.
-// Threads:   none inside.
-// Failure:   none.
+// Units/frames: none.
+// Ownership:    none.
+// Threads:      none inside.
+// Failure:      none.
 #pragma once
 
 // NOLINTNEXTLINE(bugprone-reserved-identifier): the sanitizer's own name.

@@ -1,10 +1,11 @@
 // Checks whether a runtime of OpenXR is active on this machine, without loading it: a vendor's code
 // is no part of a check.
 //
-// Ownership: plain values.
-// Threads:   one.
-// Failure:   none; a fault is a Finding.
-// Source:    OpenXR loader design, "Linux runtime discovery".
+// Units/frames: none.
+// Ownership:    plain values.
+// Threads:      one.
+// Failure:      none; a fault is a Finding.
+// Source:       OpenXR loader design, "Linux runtime discovery".
 #pragma once
 
 #include <functional>

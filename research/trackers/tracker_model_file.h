@@ -1,7 +1,9 @@
 // A model of tracked bodies in a file.
 //
-// Threads: one.
-// Failure: an Error names the file and what is wrong with it.
+// Units/frames: none.
+// Ownership:    the caller owns what is read.
+// Threads:      one.
+// Failure:      an Error names the file and what is wrong with it.
 #pragma once
 
 #include <memory>

@@ -1,9 +1,10 @@
 // HeadsetPrograms: programs of a house with a headset, which is the scripted one of testing/xr, and
 // what is heard of its dancer on the bus. A test fails where the headset's runtime saw misuse.
 //
-// Ownership: the fixture's programs and files end with the test.
-// Threads:   one.
-// Failure:   what does not come to pass within the time that no machine should need is false.
+// Units/frames: none.
+// Ownership:    the fixture's programs and files end with the test.
+// Threads:      one.
+// Failure:      what does not come to pass within the time that no machine should need is false.
 #pragma once
 
 #include <cstdlib>

@@ -1,8 +1,9 @@
 // The texts of the panel at a wrist (headset/panel/), as rows of viewer/words/text_table.h.
 //
-// Ownership: constants.
-// Threads:   any.
-// Failure:   as viewer/words/text_table.h.
+// Units/frames: none.
+// Ownership:    constants.
+// Threads:      any.
+// Failure:      as viewer/words/text_table.h.
 #pragma once
 
 // clang-format off

@@ -1,8 +1,9 @@
 // The lines of a script that begin with `at`.
 //
-// Ownership: none.
-// Threads:   none inside.
-// Failure:   errors name the word and the cure.
+// Units/frames: seconds of the script's clock; places in metres.
+// Ownership:    none.
+// Threads:      none inside.
+// Failure:      errors name the word and the cure.
 #pragma once
 
 #include "testing/xr/script/xr_script.h"

@@ -1,9 +1,10 @@
 // HandleTable: what an application's handles stand for. A handle is a number that is never used
 // again, so that one that outlives its object is found instead of followed.
 //
-// Ownership: owns the objects.
-// Threads:   none inside; the runtime's lock guards it.
-// Failure:   find() of a handle that is not alive is null.
+// Units/frames: none.
+// Ownership:    owns the objects.
+// Threads:      none inside; the runtime's lock guards it.
+// Failure:      find() of a handle that is not alive is null.
 #pragma once
 
 #include <openxr/openxr.h>

@@ -2,9 +2,10 @@
 // runtime, session and input, lets the session live, and says what the runtime recorded. A test
 // fails where the runtime saw misuse.
 //
-// Ownership: the fixture owns all; what a test makes of them ends before.
-// Threads:   one.
-// Failure:   what does not come to pass within a minute is false.
+// Units/frames: none.
+// Ownership:    the fixture owns all; what a test makes of them ends before.
+// Threads:      one.
+// Failure:      what does not come to pass within a minute is false.
 #pragma once
 
 #include <gtest/gtest.h>
