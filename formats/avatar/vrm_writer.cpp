@@ -135,6 +135,7 @@ class VrmFile {
     surface.metallicFactor = 0.0;
     surface.roughnessFactor = decimal(std::clamp(from.roughness, 0.0f, 1.0f));
     surface.baseColorTexture.index = from.picture;
+    material.emissiveFactor.clear();  // newer releases of tinygltf begin with black
     for (int c = 0; c < 3; ++c)
       material.emissiveFactor.push_back(decimal(std::clamp(from.emission[c], 0.0f, 1.0f)));
     material.doubleSided = from.is_double_sided;

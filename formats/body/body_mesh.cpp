@@ -9,11 +9,13 @@ namespace dance {
 
 using Eigen::Vector3f;
 
-std::vector<BodyMeshPart> body_mesh(const Skeleton& skeleton, const GuestLook& look,
-                                    bool has_fingers) {
+namespace {
+
+std::vector<BodyMeshPart> mesh_of(const std::vector<FigureLayer>& layers,
+                                  const Skeleton& skeleton) {
   const SkinWeighting weighting(skeleton);
   std::array<BodyMeshPart, kMaterialCount> of_material;
-  for (const FigureLayer& layer : FigureBuilder(skeleton, look, has_fingers).take()) {
+  for (const FigureLayer& layer : layers) {
     BodyMeshPart& part = of_material[static_cast<std::size_t>(layer.material)];
     const Surface surface = surface_of(layer);
     const auto first = static_cast<std::uint32_t>(part.places_m.size());
@@ -30,6 +32,18 @@ std::vector<BodyMeshPart> body_mesh(const Skeleton& skeleton, const GuestLook& l
     parts.push_back(std::move(of_material[m]));
   }
   return parts;
+}
+
+}  // namespace
+
+std::vector<BodyMeshPart> body_mesh(const Skeleton& skeleton, const GuestLook& look,
+                                    bool has_fingers) {
+  return mesh_of(FigureBuilder(skeleton, look, has_fingers).take(), skeleton);
+}
+
+std::vector<BodyMeshPart> body_mesh_below_head(const Skeleton& skeleton, const GuestLook& look,
+                                               bool has_fingers) {
+  return mesh_of(FigureBuilder(skeleton, look, has_fingers).take_below_head(), skeleton);
 }
 
 MaterialLook look_of(Material material, const GuestLook& look) {

@@ -30,6 +30,10 @@ struct BodyMeshPart {
 std::vector<BodyMeshPart> body_mesh(const Skeleton& skeleton, const GuestLook& look,
                                     bool has_fingers);
 
+// The body without head and hair, for figures that have their own.
+std::vector<BodyMeshPart> body_mesh_below_head(const Skeleton& skeleton, const GuestLook& look,
+                                               bool has_fingers);
+
 struct MaterialLook {
   std::string_view name;
   Eigen::Vector3f colour;  // linear RGB

@@ -1,6 +1,7 @@
 #include "formats/body/figure_builder.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "formats/body/hand_layout.h"
 
@@ -54,10 +55,16 @@ void FigureBuilder::add_torso(FigureLayer& top) const {
   // Ribs that reach beyond the shoulders would swallow a hanging arm.
   const float waist = 1.34f * (0.5f + 0.5f * places_.breadth);
   const float ribs = 1.34f * places_.breadth;
-  const Vector3f middle = at(Bone::kChest, {0, 0.01f, 0.003f});
-  top.parts.push_back(part(at(Bone::kHips, {0, 0.085f, 0}), 0.096f,
-                           at(Bone::kSpine, {0, -0.005f, 0.002f}), 0.098f, waist));
-  top.parts.push_back(part(at(Bone::kSpine, {0, -0.01f, 0.002f}), 0.097f, middle, 0.1f, waist));
+  // The shirt ends at the waist, also if the back's first joint lies between the hips.
+  const Vector3f hem = at(Bone::kHips, {0, 0.085f, 0});
+  const auto above_hem = [&](const Vector3f& place) {
+    return Vector3f(place.x(), std::max(place.y(), hem.y()), place.z());
+  };
+  const Vector3f middle = above_hem(at(Bone::kChest, {0, 0.01f, 0.003f}));
+  top.parts.push_back(
+      part(hem, 0.096f, above_hem(at(Bone::kSpine, {0, -0.005f, 0.002f})), 0.098f, waist));
+  top.parts.push_back(
+      part(above_hem(at(Bone::kSpine, {0, -0.01f, 0.002f})), 0.097f, middle, 0.1f, waist));
   top.parts.push_back(part(middle, 0.1f, at(Bone::kUpperChest, {0, 0.03f, 0.006f}), 0.114f, ribs));
   const Vector3f breastbone = at(Bone::kUpperChest, {0, -0.005f, 0.026f});
   top.parts.push_back(part(breastbone, 0.1f, breastbone, 0.1f, ribs));
@@ -69,6 +76,23 @@ void FigureBuilder::add_torso(FigureLayer& top) const {
     top.parts.push_back(part(girdle, 0.082f, girdle + 0.85f * (shoulder - girdle), 0.058f));
     const Vector3f neck = at(Bone::kNeck, {0.008f * s, 0.0f, -0.006f});
     top.parts.push_back(part(neck, 0.05f, neck + 0.8f * (shoulder - neck), 0.037f));
+  }
+}
+
+void FigureBuilder::add_hem(FigureLayer& top) const {
+  top.hem_y_m = at(Bone::kHips, {0, 0.015f, 0}).y();
+  top.parts.push_back(part(at(Bone::kHips, {0, -0.06f, -0.006f}), 0.128f,
+                           at(Bone::kHips, {0, 0.085f, 0}), 0.099f, 1.52f));
+}
+
+// Steep enough against the arm that its edge is a line, however the arm is held.
+void FigureBuilder::add_caps(FigureLayer& top) const {
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const bool left = side == Side::kLeft;
+    const Vector3f shoulder = places_.at(left ? Bone::kLeftUpperArm : Bone::kRightUpperArm);
+    FigurePart cap = part(shoulder, 0.0605f, shoulder, 0.0605f);
+    cap.limb = left ? FigureLimb::kLeftArm : FigureLimb::kRightArm;
+    top.parts.push_back(cap);
   }
 }
 
@@ -84,13 +108,15 @@ void FigureBuilder::add_hips(FigureLayer& legs) const {
   }
 }
 
-void FigureBuilder::add_top_and_ends() {
+void FigureBuilder::add_top_and_ends(Edges edges) {
   FigureLayer top;
   top.material = Material::kTop;
   top.cell_m = places_.scale * 0.014f;
   top.blend_m = places_.scale * 0.035f;
   top.skinning = FigureSkinning::kTop;
   add_torso(top);
+  if (edges == Edges::kOwn && look_.legwear != Legwear::kSkirt) add_hem(top);
+  if (edges == Edges::kOwn && look_.sleeves == Sleeves::kNone) add_caps(top);
   for (const Side side : {Side::kLeft, Side::kRight}) {
     add_sleeve(side, top);
     add_arm(side);
@@ -112,7 +138,17 @@ void FigureBuilder::add_fingers() {
 }
 
 std::vector<FigureLayer> FigureBuilder::take() {
-  add_top_and_ends();
+  std::vector<FigureLayer> below = take_below_head();
+  add_head();
+  add_face();
+  add_hair();
+  below.insert(below.end(), std::make_move_iterator(layers_.begin()),
+               std::make_move_iterator(layers_.end()));
+  return below;
+}
+
+std::vector<FigureLayer> FigureBuilder::take_below_head() {
+  add_top_and_ends(Edges::kOwn);
   if (look_.legwear == Legwear::kSkirt) {
     // They begin below the hip, so that the cloth covers that end however far the leg is lifted.
     constexpr float kBelowCloth = 0.55f;
@@ -124,14 +160,11 @@ std::vector<FigureLayer> FigureBuilder::take() {
     add_trousers();
   }
   add_fingers();
-  add_head();
-  add_face();
-  add_hair();
-  return std::move(layers_);
+  return std::exchange(layers_, {});
 }
 
 std::vector<FigureLayer> FigureBuilder::take_body() {
-  add_top_and_ends();
+  add_top_and_ends(Edges::kTrimmed);
   if (look_.legwear == Legwear::kSkirt) {
     constexpr float kBelowShorts = 0.16f;
     FigureLayer& skin = layer(Material::kSkin, 0.013f, 0.02f);

@@ -34,6 +34,8 @@ class FigureBuilder {
   FigureBuilder(const Skeleton& skeleton, const GuestLook& look, bool has_fingers);
 
   std::vector<FigureLayer> take();
+  // The figure without head and hair, for figures that have their own.
+  std::vector<FigureLayer> take_below_head();
   // Without head, hair and skirt, for figures that bring their own; below a skirt of their own they
   // wear short trousers.
   std::vector<FigureLayer> take_body();
@@ -52,7 +54,12 @@ class FigureBuilder {
                      FigureSkinning skinning = FigureSkinning::kBody);
 
   void add_torso(FigureLayer& top) const;
-  void add_top_and_ends();
+  // A hem that hangs over the trousers, so that no gap shows between two clothes of equal width.
+  void add_hem(FigureLayer& top) const;
+  void add_caps(FigureLayer& top) const;  // of a top without sleeves
+  // kOwn: the top has edges; kTrimmed: its figure adds bands and edgings.
+  enum class Edges : std::uint8_t { kOwn, kTrimmed };
+  void add_top_and_ends(Edges edges);
   void add_trousers();
   void add_fingers();
   void add_sleeve(Side side, FigureLayer& top) const;
@@ -60,6 +67,8 @@ class FigureBuilder {
   void add_hand(Side side, FigureLayer& skin) const;
   void add_finger(std::size_t finger);
   void add_hips(FigureLayer& legs) const;
+  // A leg's radius at one of its bones, reduced so that the legs do not touch.
+  float beside_other_leg(Bone bone, float radius_m) const;
   void add_trouser_leg(Side side, FigureLayer& legs) const;
   // `begin` is a share of the thigh.
   void add_bare_leg(Side side, float begin, FigureLayer& skin) const;

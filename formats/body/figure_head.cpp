@@ -8,7 +8,7 @@ using Eigen::Vector3f;
 // y = −0.01, eyes at 0.09, crown at 0.2, nose towards +Z.
 
 void FigureBuilder::add_head() {
-  FigureLayer& skin = layer(Material::kSkin, 0.0085f, 0.012f);
+  FigureLayer& skin = layer(Material::kSkin, 0.0085f, 0.012f, FigureSkinning::kNeck);
   skin.parts.push_back(part(at(Bone::kNeck, {0, -0.03f, 0.002f}), 0.057f,
                             at(Bone::kHead, {0, 0.03f, 0.004f}), 0.051f));
   skin.parts.push_back(part(at(Bone::kHead, {0, 0.106f, -0.004f}), 0.087f,

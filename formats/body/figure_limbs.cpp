@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "formats/body/figure_builder.h"
 #include "formats/body/hand_layout.h"
 
@@ -103,6 +106,23 @@ void FigureBuilder::add_finger(std::size_t finger) {
   }
 }
 
+// Legs that touch would be one surface, and tear where they part.
+float FigureBuilder::beside_other_leg(Bone bone, float radius_m) const {
+  // More than half a cell of the surface; thighs meet at their upper end in any case.
+  constexpr float kGap_m = 0.01f;
+  constexpr float kThighGap_m = 0.004f;
+  constexpr float kThinnest_m = 0.03f;
+  const bool is_thigh = bone == Bone::kLeftUpperLeg || bone == Bone::kRightUpperLeg;
+  const bool is_left = bone < Bone::kRightUpperLeg;
+  const auto per_leg =
+      static_cast<std::size_t>(Bone::kRightUpperLeg) - index_of(Bone::kLeftUpperLeg);
+  const auto other =
+      static_cast<Bone>(is_left ? index_of(bone) + per_leg : index_of(bone) - per_leg);
+  const float half_m =
+      0.5f * std::abs(places_.at(bone).x() - places_.at(other).x()) / places_.scale;
+  return std::min(radius_m, std::max(kThinnest_m, half_m - (is_thigh ? kThighGap_m : kGap_m)));
+}
+
 void FigureBuilder::add_trouser_leg(Side side, FigureLayer& legs) const {
   const bool left = side == Side::kLeft;
   const Bone upper = left ? Bone::kLeftUpperLeg : Bone::kRightUpperLeg;
@@ -112,11 +132,16 @@ void FigureBuilder::add_trouser_leg(Side side, FigureLayer& legs) const {
     legs.parts.push_back(leg);
     legs.parts.back().limb = left ? FigureLimb::kLeftLeg : FigureLimb::kRightLeg;
   };
-  add(part(at(upper, {0, -0.02f, 0}), 0.09f, knee, 0.061f));
+  const Bone lower = left ? Bone::kLeftLowerLeg : Bone::kRightLowerLeg;
+  const Bone foot = left ? Bone::kLeftFoot : Bone::kRightFoot;
+  const float knee_m = beside_other_leg(lower, 0.061f);
+  const float calf_m = beside_other_leg(lower, 0.06f);
+  add(part(at(upper, {0, -0.02f, 0}), beside_other_leg(upper, 0.09f), knee, knee_m));
   const Vector3f calf = between(knee, ankle, 0.3f) - places_.scale * 0.008f * Vector3f::UnitZ();
-  add(part(knee, 0.06f, calf, 0.06f));
+  add(part(knee, calf_m, calf, calf_m));
   const bool flared = look_.legwear == Legwear::kFlared;
-  add(part(calf, 0.06f, between(knee, ankle, 0.9f), flared ? 0.084f : 0.056f));
+  add(part(calf, calf_m, between(knee, ankle, 0.9f),
+           beside_other_leg(foot, flared ? 0.084f : 0.056f)));
 }
 
 void FigureBuilder::add_bare_leg(Side side, float begin, FigureLayer& skin) const {
@@ -145,7 +170,8 @@ void FigureBuilder::add_shorts() {
     const Bone upper = left ? Bone::kLeftUpperLeg : Bone::kRightUpperLeg;
     const Vector3f knee = places_.at(left ? Bone::kLeftLowerLeg : Bone::kRightLowerLeg);
     const Vector3f hip = at(upper, {0, -0.02f, 0});
-    shorts.parts.push_back(part(hip, 0.086f, between(hip, knee, 0.3f), 0.08f));
+    shorts.parts.push_back(part(hip, beside_other_leg(upper, 0.086f), between(hip, knee, 0.3f),
+                                beside_other_leg(upper, 0.08f)));
     shorts.parts.back().limb = left ? FigureLimb::kLeftLeg : FigureLimb::kRightLeg;
   }
 }
@@ -173,8 +199,11 @@ void FigureBuilder::add_shoe(Side side) {
   // How far the sole lies below ankle and ball when the foot stands flat.
   const float under_ball_m = skeleton_.tip(tip).y() / places_.scale;
   const float under_ankle_m = skeleton_.offset(toes).y() / places_.scale + under_ball_m;
-  constexpr float kSole_m = 0.011f;
-  constexpr float kThin = 0.32f;
+  // A thin sole, flush with the sides of the upper.
+  constexpr float kSole_m = 0.007f;
+  constexpr float kThin = 0.22f;
+  constexpr float kSides_m = 0.02f;
+  constexpr float kLow = 0.5f;
   const Vector3f toe_end = places_.at(tip);
   FigureLayer& shoe = layer(Material::kShoes, 0.01f, 0.015f);
   shoe.parts.push_back(part(at(foot, {0, under_ankle_m + 0.046f, -0.03f}), 0.036f,
@@ -183,11 +212,16 @@ void FigureBuilder::add_shoe(Side side) {
                             at(toes, {0, under_ball_m + 0.034f, 0}), 0.031f, 1.12f));
   shoe.parts.push_back(part(at(toes, {0, under_ball_m + 0.033f, 0}), 0.031f,
                             toe_end + places_.scale * 0.026f * Vector3f::UnitY(), 0.02f, 1.25f));
+  shoe.parts.push_back(part(at(foot, {0, under_ankle_m + kSides_m, -0.034f}), 0.034f,
+                            at(toes, {0, under_ball_m + kSides_m, 0}), 0.036f, 1.04f, kLow));
+  shoe.parts.push_back(part(at(toes, {0, under_ball_m + kSides_m, 0}), 0.036f,
+                            toe_end + places_.scale * 0.018f * Vector3f::UnitY(), 0.024f, 1.04f,
+                            kLow));
   FigureLayer& sole = layer(Material::kSoles, 0.011f, 0.006f);
-  sole.parts.push_back(part(at(foot, {0, under_ankle_m + kSole_m, -0.038f}), 0.034f,
-                            at(toes, {0, under_ball_m + kSole_m, 0}), 0.037f, 1.08f, kThin));
-  sole.parts.push_back(part(at(toes, {0, under_ball_m + kSole_m, 0}), 0.037f,
-                            toe_end + places_.scale * kSole_m * Vector3f::UnitY(), 0.026f, 1.08f,
+  sole.parts.push_back(part(at(foot, {0, under_ankle_m + kSole_m, -0.034f}), 0.034f,
+                            at(toes, {0, under_ball_m + kSole_m, 0}), 0.0355f, 1.04f, kThin));
+  sole.parts.push_back(part(at(toes, {0, under_ball_m + kSole_m, 0}), 0.0355f,
+                            toe_end + places_.scale * kSole_m * Vector3f::UnitY(), 0.0235f, 1.04f,
                             kThin));
   for (FigureLayer* each : {&layers_[layers_.size() - 2], &layers_.back()})
     for (FigurePart& part : each->parts) part.limb = limb;

@@ -44,8 +44,8 @@ struct FigurePart {
   FigureLimb limb = FigureLimb::kTrunk;
 };
 
-// How a layer follows the bones.
-enum class FigureSkinning : std::uint8_t { kBody, kTop, kSkirt, kHead, kFinger };
+// How a layer follows the bones: kHead the head alone, kNeck the head, the neck and the chest.
+enum class FigureSkinning : std::uint8_t { kBody, kTop, kSkirt, kHead, kNeck, kFinger };
 
 struct FigureLayer {
   Material material = Material::kSkin;

@@ -1,6 +1,5 @@
 #include "formats/body/guest_look.h"
 
-#include <array>
 #include <cmath>
 
 #include "core/base/fnv1a.h"
@@ -12,17 +11,10 @@ using Eigen::Vector3f;
 
 namespace {
 
-// Chosen by eye on the stage's light: apart from each other, and from floor and backdrop.
-constexpr std::array<std::uint32_t, 6> kSkins{0xf0c8a8, 0xe2ab82, 0xc98a5e,
-                                              0xa66a43, 0x7d4c30, 0x5b3825};
-constexpr std::array<std::uint32_t, 12> kTops{0xd8343f, 0x2f7fd1, 0xf2b632, 0x2ba18a,
-                                              0x8e4fc0, 0xf07a3a, 0xe0568f, 0x5aa83c,
-                                              0x37b6d9, 0xf3efe6, 0x4a58b8, 0xb9d24a};
+// Chosen by eye, like the colours in the header.
 constexpr std::array<std::uint32_t, 6> kTrousers{0x2b3042, 0x3d4c6b, 0x3a3532,
                                                  0x5a4a3f, 0x24292e, 0x6d6f78};
 constexpr std::array<std::uint32_t, 5> kShoes{0x1c1b1d, 0xf1ece2, 0x8a5a33, 0xb02a30, 0x3a3f4a};
-constexpr std::array<std::uint32_t, 6> kHairs{0x1d1613, 0x3a251a, 0x6b4226,
-                                              0xb98a4e, 0x8a3b22, 0x8f8a86};
 
 // Where the hash starts: chosen so that the dancers of the documents and the demo get different
 // colours.
@@ -58,9 +50,9 @@ Vector3f srgb_from_linear(const Vector3f& linear) {
 GuestLook look_of(const GuestId& guest) {
   Random random(hash_of(guest));
   GuestLook look;
-  look.top = pick(random, kTops);
-  look.skin = pick(random, kSkins);
-  look.hair = pick(random, kHairs);
+  look.top = pick(random, kTopColours);
+  look.skin = pick(random, kSkinColours);
+  look.hair = pick(random, kHairColours);
   look.shoes = pick(random, kShoes);
   look.hair_style = static_cast<Hair>(random.below(4));
   look.sleeves = static_cast<Sleeves>(random.below(3));

@@ -250,6 +250,15 @@ float signed_distance_m(const FigureLayer& layer, const Vector3f& place_m) {
   return Shape(layer).distance_to(place_m);
 }
 
+struct LayerDistance::Parts {
+  Shape shape;
+};
+LayerDistance::LayerDistance(const FigureLayer& layer) : parts_(new Parts{Shape(layer)}) {}
+LayerDistance::~LayerDistance() = default;
+float LayerDistance::at(const Vector3f& place_m) const {
+  return parts_->shape.distance_to(place_m);
+}
+
 Surface surface_of(const FigureLayer& layer) {
   return layer.parts.empty() ? Surface() : Net(layer).surface();
 }

@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "formats/body/figure_part.h"
@@ -29,5 +30,17 @@ Surface surface_of(const FigureLayer& layer);
 
 // Below 0 inside; near the surface the distance to it, where parts are round.
 float signed_distance_m(const FigureLayer& layer, const Eigen::Vector3f& place_m);
+
+// signed_distance_m() for many places: prepares the layer's parts once.
+class LayerDistance {
+ public:
+  explicit LayerDistance(const FigureLayer& layer);
+  ~LayerDistance();
+  float at(const Eigen::Vector3f& place_m) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<const Parts> parts_;
+};
 
 }  // namespace dance

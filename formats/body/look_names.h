@@ -23,6 +23,10 @@ constexpr std::string_view kMannequinName = "mannequin";
 std::optional<GuestLook> named_look(const GuestId& guest, std::string_view name,
                                     const std::array<float, 3>& colour_rgb);
 
+// Returns a word of each kind, so that only the colours of clothes depend on the guest's id. Skin
+// and hair must be in the palettes.
+std::string name_of_look(const GuestLook& look);
+
 bool is_look_name(std::string_view name);
 // For help and error messages: "legs trousers, flared or dress; hair …".
 std::string look_names();

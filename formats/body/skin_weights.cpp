@@ -8,6 +8,9 @@ namespace {
 
 using Eigen::Vector3f;
 
+// The skin between neck and head bends over this much to both sides of a place below the joint.
+constexpr float kNeckBend_m = 0.03f;
+
 // 0 up to `from`, 1 from `to` on, smooth between.
 float smooth_step(float from, float to, float x) {
   const float t = std::clamp((x - from) / (to - from), 0.0f, 1.0f);
@@ -58,12 +61,18 @@ void SkinWeighting::share_trunk(const Vector3f& place_m, float share, Shares& sh
   const float aside_m = std::abs(place_m.x() - places_.at(Bone::kNeck).x()) / places_.scale;
   // Shoulders are as high as the neck's joint, and no part of it.
   const float slim = 1.0f - smooth_step(0.05f, 0.1f, aside_m);
+  // Cloth bends at the waist, also where the back's first joint lies between the hips: there
+  // trousers follow the hips.
+  constexpr float kWaist_m = 0.09f;
+  const float spine_m =
+      (places_.at(Bone::kSpine).y() - places_.at(Bone::kHips).y()) / places_.scale;
+  const float waist_m = std::max(0.0f, kWaist_m - spine_m);
   const std::array<std::pair<Bone, float>, 5> joints{
-      {{Bone::kSpine, beyond(Bone::kSpine, up, place_m, 0.05f)},
+      {{Bone::kSpine, beyond(Bone::kSpine, up, place_m, 0.05f, waist_m)},
        {Bone::kChest, beyond(Bone::kChest, up, place_m, 0.05f)},
        {Bone::kUpperChest, beyond(Bone::kUpperChest, up, place_m, 0.05f)},
        {Bone::kNeck, slim * beyond(Bone::kNeck, up, place_m, 0.035f)},
-       {Bone::kHead, slim * beyond(Bone::kHead, up, place_m, 0.03f, -0.015f)}}};
+       {Bone::kHead, slim * beyond(Bone::kHead, up, place_m, kNeckBend_m, -0.5f * kNeckBend_m)}}};
   Bone bone = Bone::kHips;
   for (const auto& [next, taken] : joints) {
     shares[index_of(bone)] += share * (1.0f - taken);
@@ -71,6 +80,20 @@ void SkinWeighting::share_trunk(const Vector3f& place_m, float share, Shares& sh
     bone = next;
   }
   shares[index_of(bone)] += share;
+}
+
+// Shares by height alone, so that the sides of a head follow no shoulder, however near it is.
+void SkinWeighting::share_neck(const Vector3f& place_m, Shares& shares) const {
+  constexpr float kShortestNeck_m = 0.06f;
+  const Vector3f up = Vector3f::UnitY();
+  const float neck_m = (places_.at(Bone::kHead).y() - places_.at(Bone::kNeck).y()) / places_.scale;
+  // A neck's joint in the skull must not leave the chin with the chest.
+  const float lower_m = std::min(0.0f, neck_m - kShortestNeck_m);
+  const float neck = beyond(Bone::kNeck, up, place_m, 0.035f, lower_m);
+  const float head = beyond(Bone::kHead, up, place_m, kNeckBend_m, -0.5f * kNeckBend_m);
+  shares[index_of(Bone::kUpperChest)] += (1.0f - neck) * (1.0f - head);
+  shares[index_of(Bone::kNeck)] += neck * (1.0f - head);
+  shares[index_of(Bone::kHead)] += head;
 }
 
 // Gives what is left for the trunk.
@@ -179,6 +202,9 @@ SkinWeights SkinWeighting::weights_at(const Vector3f& place_m, const FigureLayer
       break;
     case FigureSkinning::kHead:
       shares[index_of(Bone::kHead)] = 1.0f;
+      break;
+    case FigureSkinning::kNeck:
+      share_neck(place_m, shares);
       break;
     case FigureSkinning::kFinger:
       share_finger(place_m, layer.finger, shares);

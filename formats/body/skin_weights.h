@@ -37,6 +37,7 @@ class SkinWeighting {
   void share_upper_body(const Eigen::Vector3f& place_m, Shares& shares) const;
   void share_trunk(const Eigen::Vector3f& place_m, float share, Shares& shares) const;
   void share_body(const Eigen::Vector3f& place_m, Shares& shares) const;
+  void share_neck(const Eigen::Vector3f& place_m, Shares& shares) const;
   float share_arm(const Eigen::Vector3f& place_m, bool left, Shares& shares) const;
   float share_leg(const Eigen::Vector3f& place_m, bool left, float share, Shares& shares) const;
   void share_skirt(const Eigen::Vector3f& place_m, Shares& shares) const;

@@ -60,6 +60,9 @@ struct Bvh {
   std::size_t frame_count = 0;
   std::vector<float> values;       // frame after frame
   std::vector<std::string> notes;  // oddities and how they were read
+  std::string lost;                // what of the file could not be read; "" if nothing
+  // True for glTF, whose translations replace the rest. A BVH does not define which it is.
+  bool positions_replace_offsets = false;
 
   const float* frame(std::size_t index) const { return values.data() + index * channel_count; }
 };

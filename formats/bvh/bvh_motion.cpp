@@ -1,5 +1,7 @@
 #include "formats/bvh/bvh_motion.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "core/base/assert.h"
@@ -23,27 +25,47 @@ Vector3d BvhFigure::end_of(const Bvh& bvh, std::size_t joint) const {
   return below == 1 ? p_FJ[last] : p_FJ[joint];
 }
 
-BvhMotion::BvhMotion(const Bvh& bvh) : bvh_(bvh) { adds_positions_ = positions_look_added(); }
+Vector3d BvhFigure::far_end_of(const Bvh& bvh, std::size_t joint) const {
+  Vector3d furthest = p_FJ[joint];
+  std::vector<bool> is_below(bvh.joints.size(), false);
+  is_below[joint] = true;
+  const auto consider = [&](const Vector3d& place) {
+    if ((place - p_FJ[joint]).norm() > (furthest - p_FJ[joint]).norm()) furthest = place;
+  };
+  for (std::size_t j = joint; j < bvh.joints.size(); ++j) {
+    const int parent = bvh.joints[j].parent;
+    if (j != joint) is_below[j] = parent >= 0 && is_below[static_cast<std::size_t>(parent)];
+    if (!is_below[j]) continue;
+    consider(p_FJ[j]);
+    if (const auto& end = bvh.joints[j].end_site) consider(p_FJ[j] + R_FJ[j] * *end);
+  }
+  return furthest;
+}
 
 // A joint's position channels either repeat its OFFSET (then they replace it) or hold what is to
-// be added to it, zero at rest. Over a whole figure the two are told apart by which they are
-// nearer to.
-bool BvhMotion::positions_look_added() const {
-  if (bvh_.frame_count == 0) return false;
-  double from_offset = 0.0;
-  double from_zero = 0.0;
-  const float* values = bvh_.frame(0);
-  for (const BvhJoint& joint : bvh_.joints) {
-    if (joint.parent < 0) continue;
-    for (std::size_t c = 0; c < joint.channel_count; ++c) {
-      if (!is_position(joint.channels[c])) continue;
-      const auto value = static_cast<double>(values[joint.first_channel + c]);
-      from_offset += std::abs(value - joint.offset[axis_of(joint.channels[c])]);
-      from_zero += std::abs(value);
+// be added to it, zero at rest.
+BvhPositionDistance position_distance(const Bvh& bvh, const std::vector<bool>& counts) {
+  BvhPositionDistance distance;
+  const std::size_t step = sample_step(bvh);
+  for (std::size_t f = 0; f < bvh.frame_count; f += step) {
+    const float* values = bvh.frame(f);
+    for (std::size_t j = 0; j < bvh.joints.size(); ++j) {
+      const BvhJoint& joint = bvh.joints[j];
+      if (joint.parent < 0 || (!counts.empty() && !counts[j])) continue;
+      for (std::size_t c = 0; c < joint.channel_count; ++c) {
+        if (!is_position(joint.channels[c])) continue;
+        const auto value = static_cast<double>(values[joint.first_channel + c]);
+        distance.from_offset += std::abs(value - joint.offset[axis_of(joint.channels[c])]);
+        distance.from_zero += std::abs(value);
+      }
     }
   }
-  return from_zero < from_offset;
+  return distance;
 }
+
+BvhMotion::BvhMotion(const Bvh& bvh)
+    : bvh_(bvh),
+      adds_positions_(!bvh.positions_replace_offsets && position_distance(bvh).looks_added()) {}
 
 Vector3d BvhMotion::local_position(std::size_t index, const float* values) const {
   const BvhJoint& joint = bvh_.joints[index];

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/base/text/cut_text.h"
 #include "formats/bvh/bvh.h"
 #include "formats/bvh/bvh_tokens.h"
 
@@ -85,7 +86,7 @@ class Reader {
 
   Ok open_joint() {
     BvhJoint joint;
-    joint.name = std::string(tokens_.rest_of_line().substr(0, 200));
+    joint.name = std::string(cut_text(tokens_.rest_of_line(), 200));
     if (joint.name.empty()) return fail_here("a joint without a name; write one after JOINT");
     if (bvh_.joints.size() >= limits_.joints)
       return fail_here("more than " + std::to_string(limits_.joints) +
@@ -226,7 +227,7 @@ class Reader {
     std::size_t odd_line = 0;  // the first line that did not hold exactly one frame
     std::size_t line = 0;
     while (bvh_.values.size() < wanted) {
-      if (tokens_.peek().empty()) return fail_short(odd_line);
+      if (is_cut_here(wanted)) return keep_whole_frames(odd_line);
       auto number = read_number("of a frame");
       if (!number) return tl::make_unexpected(number.error());
       const bool new_line = tokens_.line() != line;
@@ -236,24 +237,52 @@ class Reader {
       line = tokens_.line();
       bvh_.values.push_back(static_cast<float>(*number));
     }
-    if (const std::string_view word = tokens_.next(); !word.empty()) {
-      if (odd_line != 0) return fail_odd(odd_line);
-      bvh_.notes.push_back("line " + std::to_string(tokens_.line()) + ": what follows frame " +
-                           std::to_string(bvh_.frame_count) + " is left out");
-    }
+    if (!tokens_.peek().empty() && odd_line != 0) return fail_odd(odd_line);
+    note_what_follows();
     return true;
+  }
+
+  // The text ends before the last number is whole: a number that it ends with may itself be cut.
+  bool is_cut_here(std::size_t wanted) const {
+    BvhTokens ahead = tokens_;
+    const std::string_view word = ahead.next();
+    const bool is_last_wanted = bvh_.values.size() + 1 == wanted;
+    return word.empty() ||
+           (ahead.remaining() == 0 && (!is_last_wanted || !to_number(word).has_value()));
+  }
+
+  void note_what_follows() {
+    std::string_view word = tokens_.next();
+    if (word.empty()) return;
+    const std::string line = "line " + std::to_string(tokens_.line()) + ": ";
+    std::size_t numbers = 0;
+    for (; to_number(word); word = tokens_.next()) ++numbers;
+    const std::size_t frames = bvh_.channel_count > 0 ? numbers / bvh_.channel_count : 0;
+    if (frames > 0)
+      bvh_.lost = line + std::to_string(frames) +
+                  " frames beyond 'Frames: " + std::to_string(bvh_.frame_count) + "'";
+    else
+      bvh_.notes.push_back(line + "what follows frame " + std::to_string(bvh_.frame_count) +
+                           " is left out");
   }
 
   tl::unexpected<Error> fail_odd(std::size_t line) const {
     return fail("line " + std::to_string(line) + ": not " + std::to_string(bvh_.channel_count) +
                 " numbers in this frame's line, one for each channel; the line is damaged");
   }
-  tl::unexpected<Error> fail_short(std::size_t odd_line) {
+  // Keeps what a file that was cut short still holds.
+  Ok keep_whole_frames(std::size_t odd_line) {
     if (odd_line != 0) return fail_odd(odd_line);
-    tokens_.next();
-    return fail_here("the file ends in frame " +
-                     std::to_string(bvh_.values.size() / bvh_.channel_count + 1) + " of " +
-                     std::to_string(bvh_.frame_count) + "; it was cut short");
+    while (!tokens_.next().empty()) {
+    }
+    const std::size_t whole = bvh_.values.size() / bvh_.channel_count;
+    const std::string what = "the file ends in frame " + std::to_string(whole + 1) + " of " +
+                             std::to_string(bvh_.frame_count) + "; it was cut short";
+    if (whole == 0) return fail_here(what);
+    bvh_.lost = "line " + std::to_string(tokens_.line()) + ": " + what;
+    bvh_.values.resize(whole * bvh_.channel_count);
+    bvh_.frame_count = whole;
+    return true;
   }
 
   BvhTokens tokens_;

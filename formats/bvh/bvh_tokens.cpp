@@ -3,7 +3,8 @@
 #include <charconv>
 #include <system_error>
 
-#include "core/base/printable.h"
+#include "core/base/text/cut_text.h"
+#include "core/base/text/plain_text.h"
 
 namespace dance {
 namespace {
@@ -89,7 +90,7 @@ std::optional<long long> to_whole_number(std::string_view word) {
 }
 
 std::string quoted(std::string_view word) {
-  std::string out = "'" + printable(word.substr(0, kLongestQuote));
+  std::string out = "'" + plain_text(cut_text(word, kLongestQuote));
   if (word.size() > kLongestQuote) out += "...";
   return out + "'";
 }

@@ -40,7 +40,7 @@ bool equals_ignoring_case(std::string_view a, std::string_view b);
 std::optional<double> to_number(std::string_view word);
 std::optional<long long> to_whole_number(std::string_view word);
 
-// The word for an error message: short, printable, in quotes.
+// The word for an error message: short, plain text, in quotes.
 std::string quoted(std::string_view word);
 
 }  // namespace dance

@@ -3,7 +3,8 @@
 // Units/frames: see formats/bvh/retarget.h: assumptions are returned as notes.
 // Ownership:    plain values.
 // Threads:      none inside; reads the file on the caller's thread.
-// Failure:      an Error names the file (and the line, where one is broken) and the cure.
+// Failure:      an Error names the file (and the line, where one is broken) and the cure. A file
+//               that ends early gives the frames up to there, and `lost`.
 //               Compressed and decompressed size are both bounded.
 #pragma once
 
@@ -20,6 +21,7 @@ constexpr std::size_t kLargestClipFile_bytes = std::size_t{1} << 30;
 struct LoadedClip {
   MotionClip clip;
   std::vector<std::string> notes;
+  std::string lost = {};  // as Bvh has it
 };
 
 Result<LoadedClip> load_clip(const std::string& path, const RetargetOptions& options = {});

@@ -8,6 +8,7 @@
 #include "core/pose/shortest_turn.h"
 #include "formats/bvh/bvh_motion.h"
 #include "formats/bvh/retarget_skeleton.h"
+#include "formats/bvh/rig/rig_positions.h"
 #include "formats/bvh/rig/rig_reference.h"
 #include "formats/bvh/rig/rig_tree.h"
 
@@ -26,19 +27,20 @@ constexpr double kMovingFinger_rad = 0.035;
 class Retargeter {
  public:
   Retargeter(const Bvh& bvh, const Rig& rig, const RetargetOptions& options)
-      : bvh_(bvh), rig_(rig), options_(options), motion_(bvh) {}
+      : bvh_(bvh), rig_(rig), options_(options), motion_(bvh, positions_of(bvh, rig)) {}
 
   Result<Retargeted> run() {
     out_.rig = rig_;
     out_.notes = bvh_.notes;
-    if (!rig_.is_from_names)
-      out_.notes.emplace_back("joint names say nothing: bones found by the figure's shape");
+    if (!rig_.assumption.empty()) out_.notes.push_back(rig_.assumption);
     reference_ = find_reference(motion_, rig_, options_, out_.notes);
     out_.metres_per_unit = reference_.metres_per_unit;
     out_.clip.skeleton = learn_skeleton(bvh_, rig_, reference_);
     if (!is_valid(out_.clip.skeleton))
-      return fail("bones longer than 2 m: give the right unit, as this one makes the figure " +
-                  std::to_string(reference_.height_m) + " m tall");
+      return fail(
+          "bones longer than 2 m: give the right unit to dance convert, as --unit cm; this "
+          "one makes the figure " +
+          std::to_string(std::llround(reference_.height_m)) + " m tall");
     out_.clip.frame_hz = options_.frame_hz.value_or(bvh_.frame_hz);
     find_turns();
     find_aims();
@@ -113,7 +115,7 @@ class Retargeter {
       finger_presence_ |= 1u << f;
     }
     // CMU has a thumb only, which is no hand.
-    has_hands_ = has_hands_ && fingers > 2;
+    has_hands_ = (has_hands_ || reference_.is_canonical) && fingers > 2;
   }
 
   bool joint_moves(int index) const {

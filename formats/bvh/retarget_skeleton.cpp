@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "formats/bvh/rig/rig_correction.h"
 #include "formats/bvh/rig/rig_tree.h"
 
 namespace dance {
@@ -16,6 +17,8 @@ constexpr double kShoulderOfWay = 0.2;  // from the chest to the upper arm
 constexpr double kNeckOfWay = 0.6;      // from the chest to the head
 constexpr double kToesOfFoot = 0.65;    // the ball, from ankle to tip
 constexpr double kShortestEnd = 0.02;   // of the height: a shorter End Site is no body part
+
+constexpr double kLowestHips = 0.2;  // of the height, above the floor
 
 class Learner {
  public:
@@ -46,7 +49,12 @@ class Learner {
   Vector3d& at(Bone bone) { return place_[index_of(bone)]; }
   const Quaterniond& C(Bone bone) const { return reference_.C[index_of(bone)]; }
   Vector3d average_offset(Bone bone) const { return average_.offset(bone).cast<double>(); }
-  Vector3d end_of(Bone bone) const { return reference_.end_W_m(bvh_, rig_.joint(bone)); }
+  // A foot may be of several joints, all of which lead to its tip.
+  Vector3d end_of(Bone bone) const {
+    const bool foot = bone == Bone::kLeftFoot || bone == Bone::kRightFoot;
+    return foot ? reference_.far_end_W_m(bvh_, rig_.joint(bone))
+                : reference_.end_W_m(bvh_, rig_.joint(bone));
+  }
   bool has_end(Bone bone) {
     return rig_.has(bone) && (end_of(bone) - at(bone)).norm() > kShortestEnd * reference_.height_m;
   }
@@ -102,12 +110,18 @@ class Learner {
   // The end of the body behind one of its last bones.
   Vector3d tip_of(Tip tip) {
     const Bone bone = kTipBones[static_cast<std::size_t>(tip)];
-    Vector3d usual = at(bone) + C(bone) * average_.tip(tip).cast<double>();
+    if (reference_.is_canonical) {
+      const int last = tree_.longest_chain(rig_.joint(bone)).back();
+      const Vector3d written = reference_.end_W_m(bvh_, last);
+      if ((written - at(bone)).norm() > 1e-6) return written;
+    }
+    const Vector3d usual = at(bone) + C(bone) * average_.tip(tip).cast<double>();
     if (tip == Tip::kLeftHand || tip == Tip::kRightHand) {
       if (!rig_.has(bone)) return usual;
       const int last = tree_.longest_chain(rig_.joint(bone)).back();
       const Vector3d end = reference_.end_W_m(bvh_, last);
-      return (end - at(bone)).norm() > kShortestEnd * reference_.height_m ? end : usual;
+      const bool is_long = (end - at(bone)).norm() > kShortestEnd * reference_.height_m;
+      return is_long && goes_on_from_forearm(usual - at(bone), end - at(bone)) ? end : usual;
     }
     if (has_end(bone)) return end_of(bone);
     const bool toes = tip == Tip::kLeftToes || tip == Tip::kRightToes;
@@ -127,7 +141,11 @@ class Learner {
       skeleton.tip_m[t] =
           (C(bone).conjugate() * (tip_of(static_cast<Tip>(t)) - at(bone))).cast<float>();
     }
-    skeleton.offset_m[0] = Eigen::Vector3f(0.0f, hips_height(skeleton), 0.0f);
+    const double written_m = reference_.metres_per_unit * bvh_.joints.front().offset.y();
+    const bool is_written =
+        reference_.is_canonical && written_m > kLowestHips * reference_.height_m;
+    skeleton.offset_m[0] = Eigen::Vector3f(
+        0.0f, is_written ? static_cast<float>(written_m) : hips_height(skeleton), 0.0f);
     return skeleton;
   }
 

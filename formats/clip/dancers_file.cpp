@@ -6,7 +6,8 @@
 
 #include "core/program/whole_file.h"
 #include "formats/bvh/clip_file.h"
-#include "formats/clip/file_kind.h"
+#include "formats/kind/file_content.h"
+#include "formats/kind/file_kind.h"
 
 namespace dance {
 namespace {
@@ -20,15 +21,27 @@ RetargetOptions as_gltf(const RetargetOptions& options) {
   return as;
 }
 
+Result<FileKind> dancers_kind(const std::string& path) {
+  constexpr std::string_view kWanted = "a BVH or glTF file";
+  if (auto checked =
+          check_content(path, {FileContent::kBvh, FileContent::kGlb, FileContent::kGltf}, kWanted);
+      !checked)
+    return tl::make_unexpected(checked.error());
+  // Content of no known kind is read as BVH, whose reader names the line at fault.
+  return input_kind(path).value_or(FileKind::kBvh) == FileKind::kGlb ? FileKind::kGlb
+                                                                     : FileKind::kBvh;
+}
+
 }  // namespace
 
 Result<std::vector<NamedClip>> load_dancers(const std::string& path,
                                             const RetargetOptions& options) {
   std::vector<NamedClip> dancers;
-  const auto kind = input_kind(path);
-  if (!kind || *kind != FileKind::kGlb) {
+  DANCE_TRY(const FileKind kind, dancers_kind(path));
+  if (kind == FileKind::kBvh) {
     DANCE_TRY(LoadedClip loaded, load_clip(path, options));
-    dancers.push_back({"", std::move(loaded.clip), std::move(loaded.notes)});
+    dancers.push_back(
+        {"", std::move(loaded.clip), std::move(loaded.notes), std::move(loaded.lost)});
     return dancers;
   }
   const GlbLimits limits;

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "formats/csv/table_times.h"
 #include "formats/recording/recorded_time.h"
 
 namespace dance {
@@ -121,7 +122,7 @@ bool CsvReader::read_xyz(std::size_t first, Vector& v) const {
 
 bool CsvReader::read_head(Row& row) const {
   // Cells that people may have left out; what they then mean.
-  row.heard_us = 0;
+  row.received_us = 0;
   std::int64_t capture_us = 0;
   std::uint64_t clock_id = 1;
   row.pose.sequence = static_cast<std::uint32_t>(counters_.rows);
@@ -137,14 +138,14 @@ bool CsvReader::read_head(Row& row) const {
   row.pose.presence = kAllBones;
   row.pose.confidence = 1.0f;
   row.pose.music_beats = kNoMusic;
-  if (!optional(0, whole(row.heard_us)) || !optional(1, whole(capture_us)) ||
+  if (!optional(0, whole(row.received_us)) || !optional(1, whole(capture_us)) ||
       !optional(2, whole(clock_id)) || !optional(4, whole(row.pose.sequence)) ||
       !optional(5, whole(row.pose.presence)) || !optional(6, number(row.pose.confidence)) ||
       !optional(7, number(row.pose.music_beats)))
     return false;
-  if (cell(1).empty()) capture_us = row.heard_us;
-  if (cell(0).empty()) row.heard_us = capture_us;
-  if (!is_recorded_time(row.heard_us) || !is_recorded_time(capture_us)) return false;
+  if (cell(1).empty()) capture_us = row.received_us;
+  if (cell(0).empty()) row.received_us = capture_us;
+  if (!is_recorded_time(row.received_us) || !is_recorded_time(capture_us)) return false;
   row.pose.capture_time = MonoTime::from_us(capture_us);
   row.pose.clock_id = clock_id;
   row.pose.presence &= kAllBones;
@@ -225,27 +226,80 @@ void CsvReader::tell(const Row& row, RecordingSink& sink) {
   if (!is_same) {
     guest->has_skeleton = true;
     guest->skeleton = skeleton;
-    sink.on_skeleton(guest->id, skeleton, row.heard_us);
+    sink.on_skeleton(guest->id, skeleton, row.received_us);
   }
-  sink.on_pose(guest->id, row.pose, row.heard_us);
+  sink.on_pose(guest->id, row.pose, row.received_us);
   ++counters_.poses;
 }
 
-Result<void> CsvReader::read_into(RecordingSink& sink) {
-  Row row;
-  while (const auto line = lines_.next()) {
-    if (trimmed(*line).empty()) continue;
-    ++counters_.rows;
-    split(*line);
-    if (!read_row(row)) {
-      ++counters_.malformed;
-    } else if (!is_valid(row.pose)) {
-      ++counters_.invalid;
-    } else {
-      normalize(row.pose);
-      tell(row, sink);
-    }
+Result<void> CsvReader::choose_times(const std::vector<std::string>& lines) {
+  TableTimes times;
+  for (const std::string& line : lines) {
+    split(line);
+    times.look(cell(3), cell(0), cell(1));
   }
+  if (!times.is_received_rounded() && !times.is_capture_rounded()) return {};
+  const bool is_received_usable = times.is_received_usable();
+  if (!is_received_usable && !times.is_capture_usable())
+    return fail(name_ + ": its times are rounded, as spreadsheets save them (" + times.example() +
+                "): make the table again, or save heard_us and capture_us as numbers with all "
+                "digits");
+  times_ = is_received_usable ? Times::kReceivedOnly : Times::kCaptureOnly;
+  note_ = std::string(is_received_usable ? "capture_us" : "heard_us") +
+          " is rounded, as spreadsheets save it (" + times.example() +
+          "): " + (is_received_usable ? "heard_us" : "capture_us") + " is used instead";
+  return {};
+}
+
+// Rows stand in the order in which they were received: that tells how a second clock goes with the
+// first.
+void CsvReader::use_other_time(Row& row) {
+  if (times_ == Times::kBoth) return;
+  if (times_ == Times::kReceivedOnly) {
+    row.pose.capture_time = MonoTime::from_us(row.received_us);
+    return;
+  }
+  const std::int64_t capture_us = row.pose.capture_time.since_zero_us();
+  auto clock = std::find_if(clocks_.begin(), clocks_.end(),
+                            [&](const Clock& each) { return each.id == row.pose.clock_id; });
+  if (clock == clocks_.end()) {
+    const std::int64_t now_us = clocks_.empty() ? row.received_us : last_us_;
+    if (clocks_.size() == kMostGuests) clocks_.pop_back();
+    clock = clocks_.insert(clocks_.end(), {row.pose.clock_id, now_us - capture_us});
+  }
+  row.received_us = last_us_ = capture_us + clock->ahead_us;
+}
+
+void CsvReader::read_line(std::string_view line, RecordingSink& sink) {
+  if (trimmed(line).empty()) return;
+  ++counters_.rows;
+  split(line);
+  Row row;
+  if (!read_row(row)) {
+    ++counters_.malformed;
+    return;
+  }
+  use_other_time(row);
+  if (!is_recorded_time(row.received_us)) {
+    ++counters_.malformed;
+  } else if (!is_valid(row.pose)) {
+    ++counters_.invalid;
+  } else {
+    normalize(row.pose);
+    tell(row, sink);
+  }
+}
+
+Result<void> CsvReader::read_into(RecordingSink& sink) {
+  std::vector<std::string> first_lines;
+  while (first_lines.size() < TableTimes::kRows) {
+    const auto line = lines_.next();
+    if (!line) break;
+    first_lines.emplace_back(*line);
+  }
+  if (auto chosen = choose_times(first_lines); !chosen) return chosen;
+  for (const std::string& line : first_lines) read_line(line, sink);
+  while (const auto line = lines_.next()) read_line(*line, sink);
   if (auto ended = lines_.ended(); !ended) return ended;
   if (counters_.poses > 0) return {};
   if (counters_.rows > 0)

@@ -1,12 +1,14 @@
 // CsvReader: reads a table of CsvConsumer back into a RecordingSink. Columns are found by name, in
 // any order; unknown ones are ignored. Skeletons are recovered from the positions of the bones.
 //
-// Units/frames: as formats/csv/dance_table.h; heard_us is the recording's time.
+// Units/frames: as formats/csv/dance_table.h; received_us is the recording's time (the column
+//               heard_us).
 // Ownership:    owns the file.
 // Threads:      none inside; one owner.
 // Failure:      open() names the file, and the column that is missing; read_into() a file that
-//               cannot be read to its end or holds no pose. Rows that are not valid are left out
-//               and counted by cause.
+//               cannot be read to its end, holds no pose, or whose times are all rounded. Where one
+//               of its two times is, the other one is used, and note() says so. Rows that are not
+//               valid are left out and counted by cause.
 // Source:       offset_B = R_WP⁻¹ · (p_WB − p_WP).
 #pragma once
 
@@ -38,6 +40,7 @@ class CsvReader {
   Result<void> read_into(RecordingSink& sink);
 
   const Counters& counters() const { return counters_; }
+  const std::string& note() const { return note_; }
   std::uint64_t too_long_lines() const { return lines_.too_long(); }
 
  private:
@@ -46,10 +49,16 @@ class CsvReader {
     bool has_skeleton = false;
     Skeleton skeleton;
   };
+  enum class Times : std::uint8_t { kBoth, kReceivedOnly, kCaptureOnly };
+  // Offset of the recording's time to a clock, for tables in which only capture_us is usable.
+  struct Clock {
+    std::uint64_t id = 0;
+    std::int64_t ahead_us = 0;
+  };
   // What stands in a row.
   struct Row {
     GuestId guest;
-    std::int64_t heard_us = 0;
+    std::int64_t received_us = 0;
     Pose pose;
     std::array<Eigen::Vector3d, kBoneCount> p_WB_m;
     std::array<Eigen::Vector3d, kTipCount> p_WT_m;
@@ -67,6 +76,9 @@ class CsvReader {
   bool read_head(Row& row) const;
   Skeleton skeleton_of(const Row& row) const;
   void tell(const Row& row, RecordingSink& sink);
+  Result<void> choose_times(const std::vector<std::string>& lines);
+  void use_other_time(Row& row);
+  void read_line(std::string_view line, RecordingSink& sink);
 
   CsvLines lines_;
   std::string name_;
@@ -74,6 +86,10 @@ class CsvReader {
   bool has_positions_ = false;
   std::vector<std::string_view> cells_;
   std::vector<Guest> guests_;
+  Times times_ = Times::kBoth;
+  std::vector<Clock> clocks_;
+  std::int64_t last_us_ = 0;
+  std::string note_;
   Counters counters_;
 };
 

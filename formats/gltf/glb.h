@@ -26,6 +26,7 @@ struct NamedClip {
   std::string name;  // of the dancer
   MotionClip clip;
   std::vector<std::string> notes;  // of a reader: assumptions and oddities, one line each
+  std::string lost = {};           // of a reader: what could not be read; "" if nothing
 };
 
 struct GlbOptions {

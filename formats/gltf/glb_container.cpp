@@ -1,11 +1,15 @@
 #include "formats/gltf/glb_container.h"
 
 #include <algorithm>
+#include <array>
+#include <exception>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string_view>
 
 #include "core/base/byte_reader.h"
 #include "formats/gltf/glb_text.h"
+#include "formats/kind/file_content.h"
 
 namespace dance {
 namespace {
@@ -79,6 +83,36 @@ bool decode_no_picture(tinygltf::Image* image, const int, std::string*, std::str
   return true;
 }
 
+// tinygltf's own text repeats names of the file and gives no cure. Only the part of glTF that it
+// complains of is taken from it.
+Error damage_in(std::string_view json, std::string_view reported) {
+  const nlohmann::json document = nlohmann::json::parse(json, nullptr, false);
+  if (document.is_discarded())
+    return {"damaged: its JSON breaks off or is no JSON; copy the file again, or export it again"};
+  // Files that are packed may leave out what tinygltf looks for.
+  if (document.is_object() && document.contains("extensionsRequired"))
+    for (const auto& extension : document["extensionsRequired"])
+      if (extension.is_string() && extension.get<std::string>().ends_with("_compression"))
+        return {"packed with " + plain_name(extension.get<std::string>()) +
+                "; export it without compression"};
+  struct Part {
+    std::string_view word, name;
+  };
+  // An image that lacks its bufferView is reported with both words: the image stands first.
+  constexpr std::array kParts{
+      Part{"asset", "asset"},        Part{"image", "images"},     Part{"bufferView", "bufferViews"},
+      Part{"accessor", "accessors"}, Part{"primitive", "meshes"}, Part{"animation", "animations"},
+      Part{"uffer", "buffers"},      Part{"texture", "textures"}, Part{"material", "materials"},
+      Part{"mesh", "meshes"},        Part{"skin", "skins"},       Part{"scene", "scenes"},
+      Part{"node", "nodes"}};
+  const auto part = std::ranges::find_if(
+      kParts, [&](const Part& it) { return reported.find(it.word) != reported.npos; });
+  const std::string where =
+      part == kParts.end() ? "it" : "'" + std::string(part->name) + "' in its JSON";
+  return {"damaged: " + where +
+          " is not as glTF 2.0 has it, or holds nothing; export it again as .glb"};
+}
+
 // A file brings its own data; what lies beside it is not opened, wherever its names point.
 tinygltf::FsCallbacks no_files() {
   tinygltf::FsCallbacks none{};
@@ -107,7 +141,10 @@ Result<tinygltf::Model> unpacked_model(std::span<const std::uint8_t> bytes,
   if (is_binary) {
     DANCE_TRY(json, json_of(bytes));
   } else if (json[json.find_first_not_of(" \t\r\n") % json.size()] != '{') {
-    return fail("no glTF file: it begins neither with glTF nor with JSON");
+    const FileContent content = content_of(json);
+    return content == FileContent::kUnknown
+               ? fail("no glTF file: it begins neither with glTF nor with JSON")
+               : fail(wrong_content(content, "a glTF file"));
   }
   if (auto checked = check_json(json, limits); !checked)
     return tl::make_unexpected(checked.error());
@@ -118,10 +155,20 @@ Result<tinygltf::Model> unpacked_model(std::span<const std::uint8_t> bytes,
   std::string error;
   std::string warning;
   const auto size = static_cast<unsigned int>(bytes.size());
-  const bool parsed =
-      is_binary ? parser.LoadBinaryFromMemory(&model, &error, &warning, bytes.data(), size)
-                : parser.LoadASCIIFromString(&model, &error, &warning, text, size, "");
-  if (!parsed) return fail("no valid glTF: " + plain_line(error, 200));
+  bool parsed = false;
+  // tinygltf throws at some files, for example at an empty binary chunk.
+  try {
+    parsed = is_binary ? parser.LoadBinaryFromMemory(&model, &error, &warning, bytes.data(), size)
+                       : parser.LoadASCIIFromString(&model, &error, &warning, text, size, "");
+  } catch (const std::exception&) {
+    error.clear();
+  }
+  constexpr std::string_view kMissing = "File not found : ";
+  if (const std::size_t at = error.find(kMissing); !parsed && at != error.npos)
+    return fail("its data lies in another file, " +
+                plain_name(std::string_view(error).substr(at + kMissing.size())) +
+                ", which is not opened; export it as one .glb");
+  if (!parsed) return tl::make_unexpected(damage_in(json, error));
   return model;
 }
 

@@ -41,6 +41,8 @@ struct Places {
   }
 };
 
+using NamedRoots = std::vector<std::pair<int, std::string>>;
+
 int root_of_skin(const tinygltf::Skin& skin, const GlbScene& scene) {
   const std::set<int> joints(skin.joints.begin(), skin.joints.end());
   for (const int joint : skin.joints) {
@@ -52,10 +54,9 @@ int root_of_skin(const tinygltf::Skin& skin, const GlbScene& scene) {
 
 // The topmost joints of all skins, with the name of the first skin that begins there, but for those
 // below another. In time that grows with the file alone: there may be very many skins.
-std::vector<std::pair<int, std::string>> roots_of_skins(const tinygltf::Model& model,
-                                                        const GlbScene& scene) {
+NamedRoots roots_of_skins(const tinygltf::Model& model, const GlbScene& scene) {
   std::vector<bool> is_root(scene.nodes.size(), false);
-  std::vector<std::pair<int, std::string>> roots;
+  NamedRoots roots;
   for (const tinygltf::Skin& skin : model.skins) {
     const int root = root_of_skin(skin, scene);
     if (root < 0 || is_root[static_cast<std::size_t>(root)]) continue;
@@ -102,6 +103,7 @@ class FigureMotion {
   }
 
   void begin_joints(Bvh& bvh) const {
+    bvh.positions_replace_offsets = true;
     for (const int node : figure_.joints) {
       BvhJoint joint;
       const auto bone = figure_.bones.find(node);
@@ -168,22 +170,32 @@ void add_channels(const std::vector<bool>& moves, Bvh& bvh) {
   }
 }
 
-}  // namespace
-
-std::vector<GlbFigure> find_figures(const tinygltf::Model& model, const GlbScene& scene) {
-  std::vector<std::pair<int, std::string>> roots = roots_of_skins(model, scene);
-  if (roots.empty())
-    for (std::size_t n = 0; n < scene.nodes.size(); ++n)
-      if (scene.nodes[n].parent < 0) roots.emplace_back(static_cast<int>(n), scene.nodes[n].name);
+std::vector<GlbFigure> figures_below(const NamedRoots& roots, const tinygltf::Model& model,
+                                     const GlbScene& scene) {
   std::vector<GlbFigure> figures;
   const std::map<int, std::string> bones = vrm_bones(model);
-  for (auto& [root, name] : roots) {
-    figures.push_back(figure_from(scene, root, std::move(name)));
+  for (const auto& [root, name] : roots) {
+    figures.push_back(figure_from(scene, root, name));
     for (const int joint : figures.back().joints)
       if (const auto bone = bones.find(joint); bone != bones.end())
         figures.back().bones.insert(*bone);
   }
   return figures;
+}
+
+}  // namespace
+
+std::vector<GlbFigure> find_figures(const tinygltf::Model& model, const GlbScene& scene) {
+  const NamedRoots roots = roots_of_skins(model, scene);
+  return roots.empty() ? figures_of_trees(model, scene) : figures_below(roots, model, scene);
+}
+
+std::vector<GlbFigure> figures_of_trees(const tinygltf::Model& model, const GlbScene& scene) {
+  NamedRoots roots;
+  for (std::size_t n = 0; n < scene.nodes.size(); ++n)
+    if (scene.nodes[n].parent < 0)
+      roots.emplace_back(static_cast<int>(n), plain_name(scene.nodes[n].name));
+  return figures_below(roots, model, scene);
 }
 
 std::vector<const GlbTrack*> tracks_of(const GlbFigure& figure, const GlbAnimation& animation,
@@ -204,7 +216,7 @@ Bvh rest_of(const GlbFigure& figure, const GlbScene& scene) {
 }
 
 GlbFigure figure_below(const GlbScene& scene, int root) {
-  return figure_from(scene, root, scene.at(root).name);
+  return figure_from(scene, root, plain_name(scene.at(root).name));
 }
 
 Result<Bvh> bvh_of(const GlbFigure& figure, const GlbScene& scene, const GlbAnimation& animation,

@@ -25,6 +25,8 @@ struct GlbFigure {
 
 // Where skins are, their skeletons; else the trees of the scene.
 std::vector<GlbFigure> find_figures(const tinygltf::Model& model, const GlbScene& scene);
+// The trees of the scene; skins are ignored, because the skin of a head alone names no legs.
+std::vector<GlbFigure> figures_of_trees(const tinygltf::Model& model, const GlbScene& scene);
 
 // The tracks that move the figure; empty where the animation leaves it alone.
 std::vector<const GlbTrack*> tracks_of(const GlbFigure& figure, const GlbAnimation& animation,

@@ -100,7 +100,7 @@ Result<GlbScene> checked_scene(const tinygltf::Model& model, const GlbLimits& li
   GlbScene scene;
   scene.nodes.resize(model.nodes.size());
   for (std::size_t n = 0; n < model.nodes.size(); ++n) {
-    scene.nodes[n].name = plain_name(model.nodes[n].name);
+    scene.nodes[n].name = node_name(model.nodes[n].name);
     DANCE_TRY(scene.nodes[n].rest, transform_of(model.nodes[n], n));
     if (auto adopted = adopt_children(model.nodes[n], n, scene); !adopted)
       return tl::make_unexpected(adopted.error());

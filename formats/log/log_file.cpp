@@ -6,6 +6,8 @@
 #include <cstring>
 #include <filesystem>
 
+#include "formats/kind/file_content.h"
+
 namespace dance {
 namespace {
 
@@ -47,6 +49,8 @@ Result<LogReader> LogReader::open(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
     return fail(path + ": is a folder, not an LCM log; name a file in it");
+  if (auto checked = check_content(path, {FileContent::kLcmLog}, "an LCM log"); !checked)
+    return tl::make_unexpected(checked.error());
   std::FILE* file = std::fopen(path.c_str(), "rb");
   if (!file) return fail(path + ": " + reason());
   return of(file, path);

@@ -48,7 +48,11 @@ class LogReader {
   std::optional<LogEvent> next();
   // After the last event: success at the end of the file, else the read error.
   Result<void> ended() const;
-  void rewind() { seek(0); }
+  // Goes back to the beginning and counts skipped bytes anew.
+  void rewind() {
+    seek(0);
+    skipped_bytes_ = 0;
+  }
   // Goes on with the first event at or after that place.
   void seek(std::uint64_t at_bytes);
   // next() gives the last event once more.

@@ -34,8 +34,12 @@ class LogUnpacker {
   };
 
   std::optional<LogEvent> unpack(const LogEvent& event);
-  // Forgets all channels: the next events are of another log, or of the same from its beginning.
-  void restart() { streams_.clear(); }
+  // Forgets all channels and counts: the next events are of another log, or of the same from its
+  // beginning.
+  void restart() {
+    streams_.clear();
+    counters_ = {};
+  }
   const Counters& counters() const { return counters_; }
 
  private:

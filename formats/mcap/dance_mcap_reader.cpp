@@ -1,10 +1,12 @@
 #include "formats/mcap/dance_mcap_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "formats/mcap/dance_json.h"
 #include "formats/mcap/dance_schemas.h"
+#include "formats/mcap/mcap_by_time.h"
 #include "formats/recording/recorded_time.h"
 
 namespace dance {
@@ -12,6 +14,16 @@ namespace {
 
 // Of poses whose own were left out of the file.
 constexpr std::uint64_t kFileClockId = 1;
+
+// Ranks our messages: transforms come before the rest of their pose.
+std::optional<std::uint8_t> rank_of(const McapMessage& message) {
+  if (message.encoding != "json" || message.topic == kStageTopic) return std::nullopt;
+  const std::array schemas{kFrameTransformsSchema.name, kPoseSchema.name, kHandsSchema.name,
+                           kBeatSchema.name};
+  const auto* const found = std::find(schemas.begin(), schemas.end(), message.schema);
+  if (found == schemas.end()) return std::nullopt;
+  return static_cast<std::uint8_t>(found - schemas.begin());
+}
 
 }  // namespace
 
@@ -26,7 +38,10 @@ Result<DanceMcapReader> DanceMcapReader::over(std::span<const std::uint8_t> byte
 }
 
 Result<void> DanceMcapReader::read_into(RecordingSink& sink) {
-  while (const auto message = reader_.next()) take(*message, sink);
+  const auto read =
+      read_by_time(reader_, rank_of, [&](const McapMessage& message) { take(message, sink); });
+  if (!read) return fail(name_ + ": " + read.error().what);
+  was_sorted_ = *read;
   for (Guest& guest : guests_) tell_pending(guest, sink);
   if (auto ended = reader_.ended(); !ended) return ended;
   if (counters_.poses == 0)
@@ -57,11 +72,6 @@ DanceMcapReader::Guest* DanceMcapReader::guest_of(std::string_view topic, std::s
 }
 
 void DanceMcapReader::take(const McapMessage& message, RecordingSink& sink) {
-  const bool is_ours =
-      message.encoding == "json" &&
-      (message.schema == kPoseSchema.name || message.schema == kHandsSchema.name ||
-       message.schema == kBeatSchema.name || message.schema == kFrameTransformsSchema.name);
-  if (!is_ours || message.topic == kStageTopic) return;
   const auto time_us = static_cast<std::int64_t>(message.log_ns / 1000u);
   if (message.data.size() > kMostMessage_bytes || !is_recorded_time(time_us)) {
     ++counters_.unreadable;

@@ -37,6 +37,8 @@ class DanceMcapReader {
 
   const Counters& counters() const { return counters_; }
   const McapReader& file() const { return reader_; }
+  // The file was not in the order of its times; it was read in that order.
+  bool was_sorted() const { return was_sorted_; }
 
  private:
   // Transforms come before the rest of their pose.
@@ -66,6 +68,7 @@ class DanceMcapReader {
   McapReader reader_;
   std::string name_;
   std::vector<Guest> guests_;
+  bool was_sorted_ = false;
   Counters counters_;
 };
 

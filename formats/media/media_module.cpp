@@ -1,20 +1,11 @@
 #include "formats/media/media_module.h"
 
-#include <dlfcn.h>
-#include <unistd.h>
-
-#include <filesystem>
 #include <mutex>
 
-#include "core/base/printable.h"
-#include "core/program/program.h"
+#include "core/program/program_module.h"
 
 namespace dance {
 namespace {
-
-using EntryFunction = decltype(&dance_media_module_1);
-
-constexpr const char* kEntryName = "dance_media_module_1";
 
 #ifdef DANCE_HAVE_FFMPEG
 constexpr const char* kMediaCure =
@@ -28,20 +19,10 @@ constexpr const char* kMediaCure =
 }  // namespace
 
 Result<const MediaModule*> media_module_from(const std::string& path) {
-  if (::access(path.c_str(), R_OK) != 0)
-    return fail("FFmpeg is needed and not here: " + std::string(kMediaCure));
-  void* const module = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (module == nullptr)
-    return fail("FFmpeg is needed and cannot be loaded (" + printable(::dlerror()) +
-                "): " + kMediaCure);
-  const auto entry = reinterpret_cast<EntryFunction>(::dlsym(module, kEntryName));
-  const MediaModule* const table = entry != nullptr ? entry(DANCE_MEDIA_INTERFACE) : nullptr;
-  if (table == nullptr) {
-    ::dlclose(module);
-    return fail(path + " is of another version than this program; install dancegraph and " +
-                "dancegraph-media of the same version, or build all again");
-  }
-  return table;
+  DANCE_TRY(const void* const table,
+            load_module(path, {"FFmpeg", "dancegraph-media", kMediaCure, "dance_media_module_1",
+                               DANCE_MEDIA_INTERFACE}));
+  return static_cast<const MediaModule*>(table);
 }
 
 Result<const MediaModule*> media_module() {
@@ -53,11 +34,10 @@ Result<const MediaModule*> media_module() {
     // A module that lies here was made by another build.
     return fail("FFmpeg is needed and not here: " + std::string(kMediaCure));
 #endif
-    const auto prefix = std::filesystem::path(program_folder()).parent_path();
-    // Never from the folder that somebody happens to work in.
-    if (!prefix.is_absolute())
+    const std::string path = module_path("libdance_media.so");
+    if (path.empty())
       return fail("FFmpeg is needed, and this program cannot tell where it lies; is /proc there?");
-    DANCE_TRY(loaded, media_module_from(prefix / "lib/dancegraph/libdance_media.so"));
+    DANCE_TRY(loaded, media_module_from(path));
   }
   return loaded;
 }

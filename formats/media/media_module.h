@@ -3,10 +3,8 @@
 // some ninety packages, which nobody needs to dance; Debian's dancegraph-media has the module and
 // depends on them.
 //
-// The file is lib/dancegraph/libdance_media.so beside the folder of the programs, in a build and in
-// an installation. Its one function in C, dance_media_module_1(), is given the hash of the
-// interface that the program was built with (these headers and the version) and gives the table
-// below, or nullptr where it was built with another.
+// The file is libdance_media.so (core/program/program_module.h). Its function
+// dance_media_module_1() returns the table below.
 //
 // Units/frames: those of the three interfaces.
 // Ownership:    the module stays loaded until the program ends; what it makes is the caller's.
@@ -41,4 +39,4 @@ Result<const MediaModule*> media_module_from(const std::string& path);
 
 }  // namespace dance
 
-extern "C" const dance::MediaModule* dance_media_module_1(const char* interface_hash);
+extern "C" const void* dance_media_module_1(const char* interface_hash);

@@ -1,6 +1,9 @@
-// Encodes pictures into one video file: the interface that the media module implements.
+// Encodes pictures, and sound beside them, into one video file: the interface that the media module
+// implements.
 //
-// Units/frames: sRGB, a byte a colour, rows from the top; all pictures of one size.
+// Units/frames: sRGB, a byte a colour, rows from the top; all pictures of one size. Sound is
+//               interleaved stereo at kVideoSoundRate_hz, -1 to 1, and begins with the first
+//               picture.
 // Ownership:    owns encoder and file; an existing file is written over. The pixels are the
 //               caller's.
 // Threads:      none inside but the encoder's own; one owner.
@@ -15,6 +18,8 @@
 #include "core/base/result.h"
 
 namespace dance {
+
+constexpr int kVideoSoundRate_hz = 48000;
 
 enum class VideoUse : std::uint8_t {
   // Small, by the best encoder that there is for the name's ending: .mp4, .webm or .mkv. An odd
@@ -35,6 +40,7 @@ struct VideoWish {
   int width_px = 0;
   int height_px = 0;
   double hz = 0.0;
+  bool has_sound = false;  // ignored for VideoUse::kToBeMeasured
 };
 
 class VideoEncoder {
@@ -42,9 +48,14 @@ class VideoEncoder {
   virtual ~VideoEncoder() = default;
   // width × height × 3 bytes of the wish.
   virtual Result<void> add(std::span<const std::uint8_t> pixels) = 0;
+  // Call it in turns with add(): the file holds pictures and sound of a moment side by side. Needs
+  // a sound_encoder().
+  virtual Result<void> add_sound(std::span<const float> stereo) = 0;
   virtual Result<void> finish() = 0;
   // For people: "libx264".
   virtual std::string encoder() const = 0;
+  // "aac"; empty if the wish has no sound, or FFmpeg has no sound encoder for such a file.
+  virtual std::string sound_encoder() const = 0;
 };
 
 }  // namespace dance

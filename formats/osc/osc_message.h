@@ -16,7 +16,7 @@ namespace dance {
 constexpr std::size_t kMostOscArguments = 16;  // the longest of VMC has 14
 
 struct OscArgument {
-  enum class Kind : std::uint8_t { kInt, kFloat, kText, kOther };
+  enum class Kind : std::uint8_t { kInt, kFloat, kDouble, kText, kOther };
   Kind kind = Kind::kOther;
   std::int32_t number = 0;
   float real = 0.0f;

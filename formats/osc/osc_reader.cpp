@@ -44,6 +44,8 @@ class Walk {
     } else if (received.IsFloat()) {
       argument.kind = OscArgument::Kind::kFloat;
       argument.real = received.AsFloatUnchecked();
+    } else if (received.IsDouble()) {
+      argument.kind = OscArgument::Kind::kDouble;
     } else if (received.IsString()) {
       argument.kind = OscArgument::Kind::kText;
       argument.text = received.AsStringUnchecked();

@@ -1,5 +1,6 @@
 #include "formats/osc/vmc_message.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -24,6 +25,12 @@ std::optional<float> float_at(const OscMessage& message, std::size_t i) {
 
 bool has_text(const OscMessage& message) {
   return !message.arguments.empty() && message.arguments[0].kind == OscArgument::Kind::kText;
+}
+
+bool has_doubles(const OscMessage& message) {
+  return std::any_of(message.arguments.begin(), message.arguments.end(), [](const auto& argument) {
+    return argument.kind == OscArgument::Kind::kDouble;
+  });
 }
 
 // (string){name} (float){p.x} {p.y} {p.z} {q.x} {q.y} {q.z} {q.w}
@@ -73,6 +80,7 @@ VmcMessage parse_vmc(const OscMessage& message) {
   VmcMessage parsed;
   const auto as = [&](Kind kind, bool (*read)(const OscMessage&, VmcMessage&)) {
     parsed.kind = read(message, parsed) ? kind : Kind::kMalformed;
+    if (parsed.kind == Kind::kMalformed) parsed.has_doubles = has_doubles(message);
     return parsed;
   };
   // Most are bones.

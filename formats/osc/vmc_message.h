@@ -36,6 +36,7 @@ struct VmcMessage {
   float time_s = 0.0f;
   float value = 0.0f;  // of a blend shape
   bool is_loaded = false;
+  bool has_doubles = false;  // kMalformed: numbers are doubles, where the protocol has floats
 };
 
 VmcMessage parse_vmc(const OscMessage& message);

@@ -79,6 +79,7 @@ std::vector<GuestId> LogSource::guests() const {
 
 Result<void> LogSource::read_into(RecordingSink& sink) {
   log_.rewind();
+  counters_ = {};
   for (Guest& guest : guests_[*place_of(where_)]) guest.told_skeleton.reset();
   while (const auto event = log_.next()) {
     const auto channel = Channel::parse(event->channel);

@@ -8,6 +8,9 @@
 namespace dance {
 namespace {
 
+// Times of poses on the same grid are rounded: the last pose of a take still fills its frame.
+constexpr Duration kRounding = Duration::us(1);
+
 Hands between(const Hands& a, const Hands& b, MonoTime t) {
   const Duration step = b.capture_time - a.capture_time;
   if (step <= Duration()) return b;  // of two clocks
@@ -67,8 +70,8 @@ void SteadyClip::add(const Pose& pose) {
     for (;; ++grid_index_) {
       const MonoTime t =
           grid_start_ + Duration::seconds(static_cast<double>(grid_index_) / clip_.frame_hz);
-      if (t > pose.capture_time) break;
-      const double fraction = (t - previous_->capture_time).as_seconds() / step_s;
+      if (t > pose.capture_time + kRounding) break;
+      const double fraction = std::min(1.0, (t - previous_->capture_time).as_seconds() / step_s);
       add_frame(interpolate(*previous_, pose, static_cast<float>(fraction)));
     }
   }

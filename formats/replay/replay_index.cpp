@@ -16,7 +16,7 @@ namespace {
 using Limits = ReplayIndexLimits;
 
 constexpr std::string_view kMagic = "DANCEIDX";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kChecksum_bytes = 8;
 constexpr std::int64_t kCentury_ns = 100LL * 366 * 24 * 3600 * 1'000'000'000;
 constexpr std::int64_t kCentury_us = kCentury_ns / 1000;

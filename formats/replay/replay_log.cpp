@@ -47,6 +47,8 @@ bool is_shown(const Channel& channel) {
     case Signal::kBeat:
     case Signal::kAvatar:
     case Signal::kAvatarFile:
+    case Signal::kChat:
+    case Signal::kProfile:
       return true;
     default:
       return false;

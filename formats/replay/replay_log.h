@@ -25,7 +25,7 @@
 namespace dance {
 
 // What a stage shows: poses, hands and proportions of capture and stage, poses that came into the
-// house, states, beats.
+// house, states, beats, chat.
 bool is_shown(const Channel& channel);
 
 class ReplaySink {

@@ -15,7 +15,7 @@
 #include <memory>
 #include <span>
 
-#include "formats/rokoko/lz4_frame.h"
+#include "formats/lz4/lz4_frame.h"
 #include "formats/rokoko/rokoko_frame.h"
 #include "formats/rokoko/rokoko_writer.h"
 

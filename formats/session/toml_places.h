@@ -1,5 +1,5 @@
-// Where things stand in a session's text, as its edits need it. For formats/session alone: includes
-// toml++.
+// Finds places in a session's text for its reader and its edits. For formats/session and
+// house/session.cpp alone: includes toml++.
 //
 // Units/frames: offsets in bytes; toml++ counts lines and columns from 1, columns in characters.
 // Ownership:    plain values.
@@ -22,6 +22,9 @@ std::size_t offset_of(std::string_view text, const toml::source_position& place)
 const toml::table* table_of(const toml::table& document, std::string_view key, std::size_t place);
 Error error_at(const std::string& name, const toml::source_region& source, const std::string& what);
 
+// Replaces toml++'s text, which describes its own grammar, by place and cure.
+Error syntax_error(const std::string& name, std::string_view text, const toml::parse_error& error);
+
 template <class Use>
 auto with_toml(std::string_view text, const std::string& name, Use use)
     -> decltype(use(std::declval<const toml::table&>())) {
@@ -29,7 +32,7 @@ auto with_toml(std::string_view text, const std::string& name, Use use)
   try {
     return use(toml::parse(text, std::string_view(name)));
   } catch (const toml::parse_error& error) {
-    return tl::make_unexpected(error_at(name, error.source(), std::string(error.description())));
+    return tl::make_unexpected(syntax_error(name, text, error));
   }
 }
 

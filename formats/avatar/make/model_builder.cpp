@@ -1,5 +1,7 @@
 #include "formats/avatar/make/model_builder.h"
 
+#include <algorithm>
+
 #include "formats/body/hand_layout.h"
 
 namespace dance {
@@ -56,6 +58,11 @@ void ModelBuilder::make_double_sided(int material) {
 int ModelBuilder::add_picture(AvatarPicture picture) {
   model_.pictures.push_back(std::move(picture));
   return static_cast<int>(model_.pictures.size()) - 1;
+}
+
+bool ModelBuilder::has_morph(const std::string& name) const {
+  return std::ranges::any_of(model_.morphs,
+                             [&](const AvatarMorph& morph) { return morph.name == name; });
 }
 
 std::uint32_t ModelBuilder::morph(const std::string& name) {
@@ -130,8 +137,8 @@ AvatarModel ModelBuilder::take(const std::string& name, const std::string& licen
   model_.licence = licence;
   for (const char* word : {"happy", "angry", "sad", "relaxed", "surprised", "aa", "ih", "ou", "ee",
                            "oh", "blinkLeft", "blinkRight"})
-    add_expression(word, {word});
-  add_expression("blink", {"blinkLeft", "blinkRight"});
+    if (has_morph(word)) add_expression(word, {word});
+  if (has_morph("blinkLeft")) add_expression("blink", {"blinkLeft", "blinkRight"});
   return std::move(model_);
 }
 

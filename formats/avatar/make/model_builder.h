@@ -44,11 +44,12 @@ class ModelBuilder {
                   std::vector<std::uint32_t> colliders);
   void set_eyes(int left, int right) { model_.eyes = {left, right}; }
 
-  // Sets name and licence, and the expressions that the morphs make.
+  // Sets name and licence, and the expressions of the existing morphs.
   AvatarModel take(const std::string& name, const std::string& licence);
 
  private:
   std::uint32_t morph(const std::string& name);
+  bool has_morph(const std::string& name) const;
   void add_expression(const std::string& name, const std::vector<std::string>& morphs);
 
   AvatarModel model_;

@@ -71,8 +71,13 @@ void put_hips_above_spine(const AvatarModel& model, Found& found) {
   if (height(hips) > 0.3 * height(found.at(Bone::kHips))) found[Bone::kHips] = hips;
 }
 
-std::optional<Found> found_by_names(const AvatarSource& source, const GlbFigure& figure,
-                                    std::string& why) {
+struct FoundByNames {
+  Found found;
+  std::string assumption;
+};
+
+std::optional<FoundByNames> found_by_names(const AvatarSource& source, const GlbFigure& figure,
+                                           std::string& why) {
   if (figure.joints.size() > source.limits.joints) return std::nullopt;
   const auto rig = find_rig(rest_of(figure, source.scene));
   if (!rig) {
@@ -96,7 +101,7 @@ std::optional<Found> found_by_names(const AvatarSource& source, const GlbFigure&
     int& eye = found.eyes[side == RigSide::kLeft ? 0 : 1];
     if (eye < 0) eye = node;
   }
-  return found;
+  return FoundByNames{found, rig->assumption};
 }
 
 // The figure of a skin may leave out joints above it that the rig needs: whole trees come last.
@@ -115,7 +120,7 @@ std::vector<GlbFigure> candidates(const AvatarSource& source) {
   return figures;
 }
 
-Result<Found> find_bones(const AvatarSource& source) {
+Result<Found> find_bones(AvatarSource& source) {
   Found told = told_by_vrm(source);
   std::vector<Bone> missing = missing_of(told);
   if (missing.empty()) return told;
@@ -124,8 +129,11 @@ Result<Found> find_bones(const AvatarSource& source) {
   for (const GlbFigure& figure : candidates(source)) {
     const auto named = found_by_names(source, figure, why);
     if (!named) continue;
-    const std::vector<Bone> lacking = missing_of(*named);
-    if (lacking.empty()) return *named;
+    const std::vector<Bone> lacking = missing_of(named->found);
+    if (lacking.empty()) {
+      if (!named->assumption.empty()) source.note(named->assumption);
+      return named->found;
+    }
     if (!is_told) missing = lacking;
     why.clear();
   }

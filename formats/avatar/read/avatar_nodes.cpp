@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/pose/shortest_turn.h"
+#include "formats/gltf/glb_text.h"
 
 namespace dance {
 namespace {
@@ -78,7 +79,7 @@ Result<void> read_nodes(AvatarSource& source) {
   for (const int from : scene.parents_first) {
     const GlbNode& node = scene.at(from);
     AvatarNode out;
-    out.name = node.name;
+    out.name = plain_name(node.name);
     out.parent = node.parent >= 0 ? source.model_node(node.parent) : -1;
     out.translation_m = node.rest.translation.cast<float>();
     out.rotation = node.rest.rotation.cast<float>().normalized();

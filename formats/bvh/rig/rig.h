@@ -1,5 +1,5 @@
 // Rig: which joints of a motion capture file are which bones of the canonical skeleton. From the
-// joints' names, as many tools write them; else from the shape of the figure.
+// joints' names, as many tools write them, where they give a human figure; else from its shape.
 //
 // Units/frames: indices into Bvh::joints; kNoJoint where the file has no such bone.
 // Ownership:    plain value.
@@ -23,6 +23,7 @@ struct Rig {
   std::array<int, kBoneCount> joint_of;
   std::array<int, kFingerBoneCount> finger_of;
   bool is_from_names = true;
+  std::string assumption;  // one line where names or shape left a choice, else empty
 
   Rig() {
     joint_of.fill(kNoJoint);

@@ -93,7 +93,7 @@ class Corrections {
   }
 
   void trunk() {
-    const Stance stance = stance_of(bvh_, rig_, reference_.figure);
+    const RigStance stance = stance_of(bvh_, rig_, reference_.figure);
     const Vector3d up = reference_.R_WF * stance.trunk;
     Quaterniond hips = square_frame(up, reference_.R_WF * stance.hips_left);
     Quaterniond chest = square_frame(up, reference_.R_WF * stance.chest_left);
@@ -133,7 +133,9 @@ class Corrections {
 
   void foot(Bone shin, Bone foot, Bone toes) {
     const Vector3d canonical = average_.offset(toes).cast<double>().normalized();
-    const Vector3d direction = along(foot, toes);
+    const Vector3d direction =
+        reference_.R_WF * (reference_.metres_per_unit *
+                           foot_direction(bvh_, rig_, reference_.figure, foot == Bone::kLeftFoot));
     const Quaterniond& hips = C(Bone::kHips);
     const Vector3d in_body = hips.conjugate() * direction;
     const double yaw_rad = std::atan2(in_body.x(), in_body.z());
@@ -160,7 +162,10 @@ class Corrections {
     }
     const Vector3d wrist = at(rig_.joint(hand));
     Vector3d direction = along(hand, hand);
-    if (knuckle(2) != kNoJoint) direction = at(knuckle(2)) - wrist;
+    if (knuckle(2) != kNoJoint)
+      direction = at(knuckle(2)) - wrist;
+    else if (!goes_on_from_forearm(C(lower) * e, direction))
+      direction = Vector3d::Zero();
     // The palm of a T-pose faces down: from the little finger's knuckle to the index finger's is
     // forwards. What is turned otherwise is turned from the elbow on, as an arm does it.
     if (knuckle(1) != kNoJoint && knuckle(4) != kNoJoint) {
@@ -203,9 +208,15 @@ class Corrections {
 
 }  // namespace
 
+bool goes_on_from_forearm(const Vector3d& forearm, const Vector3d& end) {
+  constexpr double kMostBent = 0.5;  // cosine: 60°
+  return forearm.dot(end) > kMostBent * forearm.norm() * end.norm();
+}
+
 void find_corrections(const Bvh& bvh, const Rig& rig, RigReference& reference) {
   reference.C.fill(Quaterniond::Identity());
   reference.C_finger.fill(Quaterniond::Identity());
+  if (reference.is_canonical) return;
   Corrections(bvh, rig, reference).find();
 }
 

@@ -12,6 +12,10 @@
 
 namespace dance {
 
+// Whether a hand's end, from the wrist, may be that of its fingers. Some tools let End Sites of
+// hands point straight down, which no hand of a reference pose does.
+bool goes_on_from_forearm(const Eigen::Vector3d& forearm, const Eigen::Vector3d& end);
+
 // Fills C and C_finger from the reference's figure, R_WF and metres_per_unit.
 void find_corrections(const Bvh& bvh, const Rig& rig, RigReference& reference);
 

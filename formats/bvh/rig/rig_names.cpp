@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
+
+#include "formats/bvh/rig/rig_japanese.h"
 
 namespace dance {
 namespace {
@@ -40,6 +43,7 @@ constexpr Word kSideWords[] = {
     {"arm", RigPart::kArm},
     {"upperarm", RigPart::kUpperArm},
     {"uparm", RigPart::kUpperArm},
+    {"uarm", RigPart::kUpperArm},
     {"armupper", RigPart::kUpperArm},
     {"humerus", RigPart::kUpperArm},
     {"shldr", RigPart::kUpperArm},
@@ -48,6 +52,8 @@ constexpr Word kSideWords[] = {
     {"forearm", RigPart::kLowerArm},
     {"lowerarm", RigPart::kLowerArm},
     {"lowarm", RigPart::kLowerArm},
+    {"loarm", RigPart::kLowerArm},
+    {"farm", RigPart::kLowerArm},
     {"armlower", RigPart::kLowerArm},
     {"elbow", RigPart::kLowerArm},
     {"radius", RigPart::kLowerArm},
@@ -68,6 +74,7 @@ constexpr Word kSideWords[] = {
     {"calf", RigPart::kShin},
     {"lowerleg", RigPart::kShin},
     {"lowleg", RigPart::kShin},
+    {"loleg", RigPart::kShin},
     {"leglower", RigPart::kShin},
     {"knee", RigPart::kShin},
     {"tibia", RigPart::kShin},
@@ -79,9 +86,12 @@ constexpr Word kSideWords[] = {
     {"ball", RigPart::kToes},
     {"thumb", RigPart::kThumb},
     {"index", RigPart::kIndex},
+    {"pointer", RigPart::kIndex},
+    {"fore", RigPart::kIndex},
     {"mid", RigPart::kMiddle},
     {"middle", RigPart::kMiddle},
     {"ring", RigPart::kRing},
+    {"third", RigPart::kRing},
     {"pinky", RigPart::kLittle},
     {"little", RigPart::kLittle},
     {"pinkie", RigPart::kLittle},
@@ -91,14 +101,16 @@ constexpr std::array<RigPart, 5> kNumberedFingers{
     RigPart::kThumb, RigPart::kIndex, RigPart::kMiddle, RigPart::kRing, RigPart::kLittle};
 
 // Words that make a joint a helper wherever they stand in its name.
-constexpr std::string_view kHelperWords[] = {"twist",      "roll",   "end",   "nub", "tip",
-                                             "hair",       "breast", "skirt", "eye", "jaw",
-                                             "metacarpal", "carpal", "palm",  "in",  "effector"};
+constexpr std::string_view kHelperWords[] = {
+    "twist", "roll", "end",        "nub",    "tip",  "hair",  "breast", "skirt",
+    "eye",   "jaw",  "metacarpal", "carpal", "palm", "in",    "meta",   "effector",
+    "ik",    "pole", "ctrl",       "helper", "hlp",  "dummy", "parent", "cancel"};
 // Words around the part's name without meaning.
 constexpr std::string_view kEmptyWords[] = {
     "proximal", "intermediate", "distal", "f",     "finger", "hand", "j",
     "c",        "bip",          "bone",   "joint", "def",    "org",  "jnt",
-    "bn",       "mixamorig",    "cc",     "base",  "b",      "m",    "avg"};
+    "bn",       "mixamorig",    "cc",     "base",  "b",      "m",    "avg",
+    "valve",    "biped",        "medial", "fk",    "rig",    "bind"};
 
 constexpr bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }
 constexpr bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
@@ -165,12 +177,12 @@ RigName read_glued(std::string_view text) {
   return {};
 }
 
-// "Finger0" to "Finger4" with the phalanx as a second digit: "Finger12".
-RigPart numbered_finger(const std::vector<std::string>& words) {
+// The digits behind "finger": "Finger0" with the phalanx as a second digit ("Finger12"), or with a
+// number of its own ("finger2-1").
+std::string finger_digits(const std::vector<std::string>& words) {
   for (std::size_t i = 0; i + 1 < words.size(); ++i)
-    if (words[i] == "finger" && words[i + 1][0] >= '0' && words[i + 1][0] <= '4')
-      return kNumberedFingers[static_cast<std::size_t>(words[i + 1][0] - '0')];
-  return RigPart::kNone;
+    if (words[i] == "finger" && is_digit(words[i + 1][0])) return words[i + 1];
+  return {};
 }
 
 RigName look_up(RigSide side, const std::string& text) {
@@ -184,6 +196,7 @@ RigName look_up(RigSide side, const std::string& text) {
 }  // namespace
 
 std::string_view common_prefix(const std::vector<std::string_view>& names) {
+  constexpr std::string_view kSeparators = "_-.: |";
   if (names.size() < 4) return {};
   std::string_view prefix = names.front();
   for (const std::string_view name : names) {
@@ -191,47 +204,113 @@ std::string_view common_prefix(const std::vector<std::string_view>& names) {
     while (same < prefix.size() && same < name.size() && prefix[same] == name[same]) ++same;
     prefix = prefix.substr(0, same);
   }
+  if (!prefix.empty()) return prefix;
+  std::map<std::string_view, std::size_t> counts;
+  for (const std::string_view name : names)
+    for (std::size_t i = 0; i + 1 < name.size(); ++i)
+      if (kSeparators.find(name[i]) != name.npos) ++counts[name.substr(0, i + 1)];
+  for (const auto& [begin, count] : counts)
+    if (10 * count > 7 * names.size() && begin.size() > prefix.size()) prefix = begin;
   return prefix;
 }
 
-RigName read_rig_name(std::string_view name) {
+RigName read_rig_name(std::string_view text) {
+  const std::string english = in_english(text);
+  std::string_view name = english;
   // Behind the last ':' stands the joint, before it the scene's or the figure's name.
   if (const auto colon = name.rfind(':'); colon != name.npos) name.remove_prefix(colon + 1);
   std::vector<std::string> words = words_of(name);
-  RigSide side = RigSide::kMiddle;
+  RigName result;
+  for (const char c : name) {
+    if (is_upper(c) || is_lower(c) || is_digit(c)) break;
+    result.decoration += c != ' ';
+  }
   for (auto word = words.begin(); word != words.end(); ++word) {
     if (const auto found = side_of(*word)) {
-      side = *found;
+      result.side = *found;
       words.erase(word);
       break;
     }
   }
+  result.decoration += std::any_of(words.begin(), words.end(),
+                                   [](const std::string& word) { return is_digit(word[0]); });
+  result.is_palm = contains(words, "metacarpal");
+  result.finger_digits = finger_digits(words);
   for (const std::string& word : words)
     if (contains(kHelperWords, word)) {
       // VRM's thumb begins with a metacarpal, which is a bone; the other fingers' are in the palm.
-      const bool thumb = contains(words, "thumb");
-      if (!thumb || word != "metacarpal") return {side, RigPart::kHelper};
+      const bool thumb = contains(words, "thumb") || !result.finger_digits.empty();
+      if (!thumb || word != "metacarpal") {
+        result.part = RigPart::kHelper;
+        return result;
+      }
     }
-  if (const RigPart finger = numbered_finger(words); finger != RigPart::kNone)
-    return {side, finger};
+  if (!result.finger_digits.empty()) {
+    result.part = RigPart::kNumberedFinger;
+    return result;
+  }
   std::string all;
   std::string telling;
+  int empty_words = 0;
   for (const std::string& word : words) {
     if (is_digit(word[0])) continue;
     all += word;
-    if (!contains(kEmptyWords, word) && word != "metacarpal") telling += word;
+    if (!contains(kEmptyWords, word) && word != "metacarpal")
+      telling += word;
+    else
+      ++empty_words;
   }
-  const RigName whole = look_up(side, all);
-  if (whole.part != RigPart::kNone) return whole;
-  // "CC_Base_L_Hand": beside a finger the hand tells nothing, alone it is the part.
-  if (telling.empty() && side != RigSide::kMiddle && contains(words, "hand"))
-    return {side, RigPart::kHand};
-  return look_up(side, telling);
+  RigName known = look_up(result.side, all);
+  if (known.part == RigPart::kNone) {
+    // "CC_Base_L_Hand": beside a finger the hand tells nothing, alone it is the part.
+    if (telling.empty() && result.side != RigSide::kMiddle && contains(words, "hand"))
+      known = {result.side, RigPart::kHand};
+    else
+      known = look_up(result.side, telling);
+    result.decoration += empty_words;
+  }
+  result.side = known.side;
+  result.part = known.part;
+  return result;
 }
 
-RigSide eye_side(std::string_view name) {
+void resolve_numbered_fingers(std::vector<RigName>& names) {
+  bool has_thumb = false;
+  // Biped writes the phalanx as a second digit, up to 2 and of a nub 3: "01" is of finger 0.
+  bool are_two_digits = false;
+  bool has_bare_zero = false;
+  for (const RigName& name : names) {
+    has_thumb = has_thumb || name.part == RigPart::kThumb;
+    if (name.part != RigPart::kNumberedFinger) continue;
+    const std::string& digits = name.finger_digits;
+    has_bare_zero = has_bare_zero || digits == "0";
+    are_two_digits = are_two_digits || (digits.size() == 2 && digits[0] == '0' && digits[1] > '3');
+  }
+  are_two_digits = are_two_digits && !has_bare_zero;
+  const auto number_of = [&](const RigName& name) {
+    return name.finger_digits[are_two_digits && name.finger_digits.size() > 1 ? 1 : 0] - '0';
+  };
+  int least = 9;
+  int most = 0;
+  for (const RigName& name : names) {
+    if (name.part != RigPart::kNumberedFinger) continue;
+    least = std::min(least, number_of(name));
+    most = std::max(most, number_of(name));
+  }
+  const bool from_one = least > 0 && (most > 4 || (least == 1 && !has_thumb));
+  for (RigName& name : names) {
+    if (name.part != RigPart::kNumberedFinger) continue;
+    const int finger = number_of(name) - (from_one ? 1 : 0);
+    name.part = finger < 5 ? kNumberedFingers[static_cast<std::size_t>(finger)] : RigPart::kNone;
+    if (name.is_palm && name.part != RigPart::kThumb) name.part = RigPart::kHelper;
+  }
+}
+
+RigSide eye_side(std::string_view text) {
   constexpr std::string_view kEmptyEyeWords[] = {"cc",  "base", "adj", "j",    "face", "def",
                                                  "org", "mch",  "bip", "bone", "joint"};
+  const std::string english = in_english(text);
+  std::string_view name = english;
   if (const auto colon = name.rfind(':'); colon != name.npos) name.remove_prefix(colon + 1);
   RigSide side = RigSide::kMiddle;
   bool is_eye = false;

@@ -41,18 +41,28 @@ enum class RigPart : std::uint8_t {
   kMiddle,
   kRing,
   kLittle,
-  kHelper,  // twist, roll and end joints: never a bone of their own
+  kNumberedFinger,  // resolve_numbered_fingers() makes one of the five of it
+  kHelper,          // twist, roll and end joints: never a bone of their own
 };
 
 struct RigName {
   RigSide side = RigSide::kMiddle;
   RigPart part = RigPart::kNone;
+  // Words and marks around the part's own: of two joints with one part the plainer is the bone.
+  int decoration = 0;
+  bool is_palm = false;            // says metacarpal
+  std::string finger_digits = {};  // of kNumberedFinger
 };
 
-// The part that all names of a figure begin with ("mixamorig:", "Bip01 "), to be left out of each.
+// The part that all names of a figure begin with ("mixamorig:", "Bip01 "), to be left out of each;
+// below a root of other software the part that most of them begin with.
 std::string_view common_prefix(const std::vector<std::string_view>& names);
 
 RigName read_rig_name(std::string_view name);
+
+// Fingers are numbered from the thumb, from 0 or from 1; the numbers that are there tell which. A
+// thumb's metacarpal is a bone, that of another finger is a joint of the palm.
+void resolve_numbered_fingers(std::vector<RigName>& names);
 
 // The side of a joint that turns an eye, by its name; kMiddle for all else, as eyelids and brows.
 RigSide eye_side(std::string_view name);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/pose/shortest_turn.h"
+#include "formats/bvh/rig/rig_canonical.h"
 #include "formats/bvh/rig/rig_correction.h"
 #include "formats/bvh/rig/rig_stance.h"
 
@@ -15,7 +16,6 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr std::size_t kSampledFrames = 64;
 constexpr double kUpright = 0.85;  // cosine: within 32° of up
 constexpr double kTypicalHeight_m = 1.7;
 // Bounds of a person's height, within which the unit that fits best is taken.
@@ -45,28 +45,6 @@ const char* axis_name(const Vector3d& direction) {
   int axis = 0;
   direction.cwiseAbs().maxCoeff(&axis);
   return kNames[axis + (direction[axis] < 0.0 ? 3 : 0)];
-}
-
-// Which way heads are above hips and hips above feet over the whole take.
-Vector3d mean_up(const BvhMotion& motion, const Rig& rig) {
-  const std::size_t count = motion.bvh().frame_count;
-  const std::size_t step = std::max<std::size_t>(1, count / kSampledFrames);
-  Vector3d sum = Vector3d::Zero();
-  double weight = 0.0;
-  BvhFigure figure;
-  for (std::size_t f = 0; f < count; f += step) {
-    motion.figure_at(f, figure);
-    const Stance stance = stance_of(motion.bvh(), rig, figure);
-    sum += stance.up();
-    const auto leg = [&](Bone thigh, Bone shin, Bone foot) {
-      return Vector3d(figure.p_FJ[static_cast<std::size_t>(rig.joint(thigh))] -
-                      bone_end(motion.bvh(), figure, rig.joint(shin), rig.joint(foot)));
-    };
-    sum += 0.5 * leg(Bone::kLeftUpperLeg, Bone::kLeftLowerLeg, Bone::kLeftFoot).normalized();
-    sum += 0.5 * leg(Bone::kRightUpperLeg, Bone::kRightLowerLeg, Bone::kRightFoot).normalized();
-    weight += 2.0;
-  }
-  return sum / std::max(1.0, weight);
 }
 
 Vector3d guess_up(const BvhMotion& motion, const Rig& rig, std::vector<std::string>& notes) {
@@ -111,13 +89,13 @@ double guess_unit(double height, std::vector<std::string>& notes) {
 // The first frame if it will do, else the one in which the figure stands best.
 std::size_t best_standing_frame(const BvhMotion& motion, const Rig& rig, const Vector3d& up) {
   const std::size_t count = motion.bvh().frame_count;
-  const std::size_t step = std::max<std::size_t>(1, count / kSampledFrames);
+  const std::size_t step = sample_step(motion.bvh());
   std::size_t best = 0;
   double best_score = -1e9;
   BvhFigure figure;
   for (std::size_t f = 0; f < count; f += step) {
     motion.figure_at(f, figure);
-    const Stance stance = stance_of(motion.bvh(), rig, figure);
+    const RigStance stance = stance_of(motion.bvh(), rig, figure);
     const bool is_good = stance.stands() && stance.up().dot(up) > kUpright;
     if (f == 0 && is_good) return 0;
     const double score = stance.score() + (is_good ? 10.0 : 0.0);
@@ -128,7 +106,7 @@ std::size_t best_standing_frame(const BvhMotion& motion, const Rig& rig, const V
   return best;
 }
 
-void note_facing(const Stance& stance, std::vector<std::string>& notes) {
+void note_facing(const RigStance& stance, std::vector<std::string>& notes) {
   const Vector3d forward = stance.hips_left.cross(stance.trunk);
   notes.push_back(std::string("the rest pose faces ") + axis_name(forward) + ", up " +
                   axis_name(stance.trunk));
@@ -142,14 +120,15 @@ void note_facing(const Stance& stance, std::vector<std::string>& notes) {
 RigReference find_reference(const BvhMotion& motion, const Rig& rig, const RetargetOptions& options,
                             std::vector<std::string>& notes) {
   RigReference reference;
+  reference.is_canonical = is_canonical(motion.bvh()) && options.up != UpAxis::kZ;
   Vector3d up = Vector3d::UnitY();
   if (options.up == UpAxis::kZ) up = Vector3d::UnitZ();
-  if (options.up == UpAxis::kGuess) up = guess_up(motion, rig, notes);
+  if (options.up == UpAxis::kGuess && !reference.is_canonical) up = guess_up(motion, rig, notes);
   reference.R_WF = rotation_to_stage(up);
 
   motion.zero_figure(reference.figure);
-  Stance stance = stance_of(motion.bvh(), rig, reference.figure);
-  if (!stance.stands()) {
+  RigStance stance = stance_of(motion.bvh(), rig, reference.figure);
+  if (!stance.stands() && !reference.is_canonical) {
     const std::size_t frame = best_standing_frame(motion, rig, up);
     motion.figure_at(frame, reference.figure);
     stance = stance_of(motion.bvh(), rig, reference.figure);
@@ -161,6 +140,8 @@ RigReference find_reference(const BvhMotion& motion, const Rig& rig, const Retar
 
   if (options.metres_per_unit)
     reference.metres_per_unit = *options.metres_per_unit;
+  else if (reference.is_canonical)
+    notes.push_back(printed("units are metres: the figure is %.2f m tall", stance.height));
   else if (stance.height > 0.0 && std::isfinite(stance.height))
     reference.metres_per_unit = guess_unit(stance.height, notes);
   reference.height_m = stance.height * reference.metres_per_unit;

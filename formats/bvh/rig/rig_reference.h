@@ -24,6 +24,7 @@ namespace dance {
 struct RigReference {
   BvhFigure figure;  // in F
   bool is_zero_pose = true;
+  bool is_canonical = false;  // in our own T-pose: no bone needs a correction
   Eigen::Quaterniond R_WF = Eigen::Quaterniond::Identity();
   double metres_per_unit = 1.0;
   double height_m = 0.0;
@@ -36,6 +37,9 @@ struct RigReference {
   }
   Eigen::Vector3d end_W_m(const Bvh& bvh, int joint) const {
     return R_WF * (metres_per_unit * figure.end_of(bvh, static_cast<std::size_t>(joint)));
+  }
+  Eigen::Vector3d far_end_W_m(const Bvh& bvh, int joint) const {
+    return R_WF * (metres_per_unit * figure.far_end_of(bvh, static_cast<std::size_t>(joint)));
   }
 };
 

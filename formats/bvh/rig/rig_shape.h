@@ -1,6 +1,6 @@
-// Finds a human in a tree of joints by its shape alone, for files with unknown names: two branches
-// of the same length below, a spine, two branches of the same length above, and feet that point
-// forwards.
+// Finds a human in a tree of joints by its shape alone, for files with unknown names: two pairs of
+// branches that mirror each other, bone by bone, are legs and arms; a spine lies between them; feet
+// and knees point forwards, without rotations or in the frames in which the figure stands.
 //
 // Threads: none inside.
 // Failure: nullopt where there is no such shape, or where left and right cannot be told apart.

@@ -14,7 +14,7 @@
 
 namespace dance {
 
-struct Stance {
+struct RigStance {
   Eigen::Vector3d trunk;      // from between the thighs to between the upper arms
   Eigen::Vector3d hips_left;  // from the right thigh to the left
   Eigen::Vector3d chest_left;
@@ -29,9 +29,18 @@ struct Stance {
   double score() const { return legs_down + straightness; }
 };
 
-Stance stance_of(const Bvh& bvh, const Rig& rig, const BvhFigure& figure);
+// Mean direction from feet to hips and from hips to head over the whole take; its length is below
+// 1 where the dancer does not keep upright.
+Eigen::Vector3d mean_up(const BvhMotion& motion, const Rig& rig);
+
+RigStance stance_of(const Bvh& bvh, const Rig& rig, const BvhFigure& figure);
 
 // Where a bone ends: at the next joint of the chain, or at its End Site, or where it begins.
 Eigen::Vector3d bone_end(const Bvh& bvh, const BvhFigure& figure, int joint, int next);
+
+// Direction of a foot from its ankle to its toes, or to the far end of its chain if the file has no
+// toes or hangs them straight below the ankle. Zero if the foot has no end.
+Eigen::Vector3d foot_direction(const Bvh& bvh, const Rig& rig, const BvhFigure& figure,
+                               bool is_left);
 
 }  // namespace dance

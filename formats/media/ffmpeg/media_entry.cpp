@@ -6,7 +6,7 @@
 #include "formats/media/ffmpeg/sound_decoder.h"
 #include "formats/media/media_module.h"
 
-extern "C" __attribute__((visibility("default"))) const dance::MediaModule* dance_media_module_1(
+extern "C" __attribute__((visibility("default"))) const void* dance_media_module_1(
     const char* interface_hash) {
   static constexpr dance::MediaModule kModule{&dance::FfmpegDecoder::open,
                                               &dance::PictureStream::open,

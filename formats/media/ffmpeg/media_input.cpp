@@ -6,7 +6,10 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
+#include <span>
+#include <string_view>
 #include <vector>
 
 extern "C" {
@@ -15,6 +18,8 @@ extern "C" {
 #include <libavutil/log.h>
 #include <libavutil/mem.h>
 }
+
+#include "core/base/text/errno_text.h"
 
 namespace dance {
 namespace {
@@ -39,6 +44,48 @@ int find_streams(AVFormatContext& format) {
   const int code = avformat_find_stream_info(&format, options.data());
   for (AVDictionary*& each : options) av_dict_free(&each);
   return code;
+}
+
+// More boxes than that on the top level are in no file of a camera; of fragmented ones, which have
+// thousands, the index is among the first.
+constexpr int kMostBoxes = 4096;
+constexpr std::size_t kHead_bytes = 16;
+
+std::uint64_t big_endian(std::span<const std::uint8_t> bytes) {
+  std::uint64_t value = 0;
+  for (const std::uint8_t byte : bytes) value = value << 8 | byte;
+  return value;
+}
+
+// Whether an MP4 or MOV file lacks its index, the box "moov" (ISO/IEC 14496-12, "Object
+// structure"), without which nothing in it can be found. A camera writes it last: it is missing
+// after a crash, an empty battery, or a copy that was cut. A file that is no MP4, or cannot be
+// read, lacks nothing.
+bool lacks_mp4_index(int fd) {
+  struct stat status {};
+  if (::fstat(fd, &status) != 0 || status.st_size < 0) return false;
+  const auto end = static_cast<std::uint64_t>(status.st_size);
+  bool is_mp4 = false;
+  std::uint64_t at = 0;
+  for (int i = 0; i < kMostBoxes && at < end; ++i) {
+    std::array<std::uint8_t, kHead_bytes> head{};
+    const ssize_t read = ::pread(fd, head.data(), head.size(), static_cast<off_t>(at));
+    if (read < 8) break;
+    const std::string_view type(reinterpret_cast<const char*>(head.data()) + 4, 4);
+    if (type == "moov") return false;
+    // The first box of every such file, but for old ones of QuickTime.
+    if (i == 0 && type != "ftyp" && type != "wide" && type != "mdat" && type != "free")
+      return false;
+    is_mp4 = true;
+    std::uint64_t size = big_endian(std::span(head).first(4));
+    if (size == 1) size = big_endian(std::span(head).subspan(8));
+    // 0: up to the end of the file, as a camera leaves it that has not finished.
+    if (size == 0) break;
+    if (size < 8) return false;
+    if (size > end - at) break;
+    at += size;
+  }
+  return is_mp4;
 }
 
 }  // namespace
@@ -84,7 +131,7 @@ Result<std::unique_ptr<FfmpegInput>> FfmpegInput::open(const std::string& path,
   quieten_ffmpeg();
   std::unique_ptr<FfmpegInput> input(new FfmpegInput(wish, cure));
   input->file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (input->file_ < 0) return fail(std::strerror(errno));
+  if (input->file_ < 0) return fail(errno_text(errno));
   input->may_read_bytes_ = kMostBytesBetweenPackets;
   auto* buffer = static_cast<std::uint8_t*>(av_malloc(kIoBuffer_bytes));
   input->io_.reset(avio_alloc_context(buffer, kIoBuffer_bytes, 0, input.get(), &read_bytes, nullptr,
@@ -101,6 +148,10 @@ Result<std::unique_ptr<FfmpegInput>> FfmpegInput::open(const std::string& path,
   int code = avformat_open_input(&format, "", nullptr, &options);
   av_dict_free(&options);
   // What could not be opened is freed already.
+  if (code < 0 && lacks_mp4_index(input->file_))
+    return fail("no " + std::string(wish.kind) +
+                " that can be read, as its end is missing: the recording was not finished, or the "
+                "copy was cut (no 'moov' box); copy it again, or rebuild its index with untrunc");
   if (code < 0)
     return fail("no " + std::string(wish.kind) + " that can be read (" +
                 (code == AVERROR(EINVAL) ? "no known format of " + std::string(wish.stream)

@@ -8,6 +8,7 @@ extern "C" {
 #include <array>
 
 #include "formats/media/ffmpeg/media_input.h"
+#include "formats/media/ffmpeg/sound_encoder.h"
 
 namespace dance {
 namespace {
@@ -16,13 +17,15 @@ struct VideoFormat {
   const char* ending;
   const char* muxer;
   std::array<const char*, 3> encoders;  // the best first
+  std::array<const char*, 2> sound_encoders;
 };
 constexpr std::array<VideoFormat, 3> kFormats{{
-    {".mp4", "mp4", {"libx264", "mpeg4", nullptr}},
-    {".webm", "webm", {"libvpx-vp9", "libvpx", nullptr}},
-    {".mkv", "matroska", {"libx264", "libvpx-vp9", "mpeg4"}},
+    {".mp4", "mp4", {"libx264", "mpeg4", nullptr}, {"aac", nullptr}},
+    {".webm", "webm", {"libvpx-vp9", "libvpx", nullptr}, {"libopus", "libvorbis"}},
+    {".mkv", "matroska", {"libx264", "libvpx-vp9", "mpeg4"}, {"libopus", "aac"}},
 }};
-constexpr VideoFormat kMeasured{".mkv", "matroska", {"mjpeg", nullptr, nullptr}};
+constexpr VideoFormat kMeasured{
+    ".mkv", "matroska", {"mjpeg", nullptr, nullptr}, {nullptr, nullptr}};
 
 const AVCodec* encoder_for(const VideoFormat& format) {
   if (av_guess_format(format.muxer, nullptr, nullptr) == nullptr) return nullptr;
@@ -87,6 +90,8 @@ class AvVideoEncoder : public VideoEncoder {
     avcodec_parameters_from_context(stream_->codecpar, codec_.get());
     stream_->time_base = codec_->time_base;
     stream_->avg_frame_rate = rate;
+    if (wish_.has_sound)
+      if (auto opened = open_sound(format); !opened) return opened;
     if (const int error = avio_open(&format_->pb, wish_.path.c_str(), AVIO_FLAG_WRITE); error < 0)
       return wrong(error);
     if (const int error = avformat_write_header(format_.get(), nullptr); error < 0)
@@ -109,14 +114,19 @@ class AvVideoEncoder : public VideoEncoder {
     return encode(frame_.get());
   }
 
+  Result<void> add_sound(std::span<const float> stereo) override { return sound_->add(stereo); }
+
   Result<void> finish() override {
     if (auto encoded = encode(nullptr); !encoded) return encoded;
+    if (sound_)
+      if (auto finished = sound_->finish(); !finished) return finished;
     if (const int error = av_write_trailer(format_.get()); error < 0) return wrong(error);
     if (const int error = avio_closep(&format_->pb); error < 0) return wrong(error);
     return {};
   }
 
   std::string encoder() const override { return name_; }
+  std::string sound_encoder() const override { return sound_ ? sound_->name() : std::string(); }
 
  private:
   bool is_measured() const { return wish_.use == VideoUse::kToBeMeasured; }
@@ -124,6 +134,15 @@ class AvVideoEncoder : public VideoEncoder {
   tl::unexpected<Error> wrong(int error) const {
     const std::string why = wish_.name + ": " + name_ + " cannot write it: " + ffmpeg_error(error);
     return fail(is_measured() ? why : why + "; formats here: " + encodable_formats());
+  }
+
+  Result<void> open_sound(const VideoFormat& format) {
+    for (const char* name : format.sound_encoders) {
+      if (name == nullptr || avcodec_find_encoder_by_name(name) == nullptr) continue;
+      DANCE_TRY(sound_, SoundEncoder::create(name, wish_.name, *format_));
+      return {};
+    }
+    return {};
   }
 
   void set_pixels() {
@@ -183,6 +202,7 @@ class AvVideoEncoder : public VideoEncoder {
   FfmpegPtr<AVFrame> frame_;
   FfmpegPtr<AVPacket> packet_;
   FfmpegPtr<SwsContext> scaler_;
+  std::unique_ptr<SoundEncoder> sound_;
   std::int64_t next_ = 0;
 };
 

@@ -14,7 +14,8 @@ namespace {
 constexpr const char* kSoundContainers =
     "aac,ac3,aiff,amr,ape,au,caf,eac3,flac,matroska,mov,mp3,mpeg,mpegts,ogg,tta,w64,wav,wv";
 constexpr const char* kSoundCodecs =
-    "aac,aac_latm,ac3,alac,amrnb,amrwb,ape,eac3,flac,mp1,mp1float,mp2,mp2float,mp3,mp3float,opus,"
+    "aac,aac_latm,ac3,adpcm_ima_wav,adpcm_ms,alac,amrnb,amrwb,ape,eac3,flac,gsm_ms,mp1,mp1float,"
+    "mp2,mp2float,mp3,mp3float,opus,"
     "pcm_alaw,pcm_f32be,pcm_f32le,pcm_f64be,pcm_f64le,pcm_mulaw,pcm_s16be,pcm_s16le,pcm_s24be,"
     "pcm_s24le,pcm_s32be,pcm_s32le,pcm_s8,pcm_u8,tta,vorbis,wavpack";
 constexpr StreamWish kSoundWish{AVMEDIA_TYPE_AUDIO, "music",      "sound",

@@ -27,6 +27,13 @@ Sheet sheet_of(const std::vector<Vector3f>& at_rest,
   return sheet;
 }
 
+// Lit like the eyeball below it, a lower lid would look like a dark bag below the eye.
+void light_as_cheek(Sheet& lid) {
+  constexpr float kForward = 1.5f;
+  for (AvatarVertex& vertex : lid.vertices)
+    vertex.normal = (vertex.normal + kForward * Vector3f::UnitZ()).normalized();
+}
+
 }  // namespace
 
 FaceMaker::FaceMaker(const FaceSurface& surface, const AvatarDesign& design)
@@ -49,16 +56,22 @@ Vector3f FaceMaker::on_eye(std::size_t eye, float yaw_deg, float pitch_deg, floa
 
 Sheet FaceMaker::eyeballs(const std::array<int, 2>& joints) const {
   constexpr int kRings = 6;
-  constexpr int kSides = 16;
   constexpr float kCap_deg = 84.0f;
+  return eye_rings(joints, kCap_deg, 0.0f, kRings);
+}
+
+Sheet FaceMaker::eye_rings(const std::array<int, 2>& joints, float outer_deg, float inner_deg,
+                           int rings) const {
+  constexpr int kSides = 16;
   Sheet sheet;
   for (std::size_t eye = 0; eye < 2; ++eye) {
     Sheet ball;
-    for (int ring = 0; ring <= kRings; ++ring)
+    for (int ring = 0; ring <= rings; ++ring)
       for (int side = 0; side < kSides; ++side) {
-        // From the back to the front, where all sides meet.
-        const float polar =
-            kRadians * kCap_deg * (1.0f - static_cast<float>(ring) / static_cast<float>(kRings));
+        // Rings go from the back to the front, where the sides of a cap meet.
+        const float polar = kRadians * inner_deg +
+                            kRadians * (outer_deg - inner_deg) *
+                                (1.0f - static_cast<float>(ring) / static_cast<float>(rings));
         const float turn = 2.0f * kRadians * 180.0f * static_cast<float>(side) / kSides;
         const Vector3f out(std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn),
                            std::cos(polar));
@@ -68,8 +81,8 @@ Sheet FaceMaker::eyeballs(const std::array<int, 2>& joints) const {
         tie(vertex, joints[eye]);
         ball.vertices.push_back(vertex);
       }
-    join_rows(ball, 0, kRings + 1, kSides, RowEnds::kJoined);
-    // The last ring is one point.
+    join_rows(ball, 0, static_cast<std::uint32_t>(rings) + 1, kSides, RowEnds::kJoined);
+    // The last ring of a cap is one point.
     std::vector<std::uint32_t> whole;
     for (std::size_t t = 0; t < ball.triangles.size(); t += 3) {
       const auto* v = &ball.triangles[t];
@@ -79,6 +92,27 @@ Sheet FaceMaker::eyeballs(const std::array<int, 2>& joints) const {
     }
     ball.triangles = whole;
     add_to(sheet, ball);
+  }
+  return sheet;
+}
+
+Sheet FaceMaker::eye_lights() const {
+  constexpr int kSides = 6;
+  constexpr float kAside_deg = 9.0f, kAbove_deg = 11.0f, kHalf_deg = 4.5f;
+  constexpr float kRadii = 1.03f;
+  Sheet sheet;
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    std::vector<Vector3f> rim;
+    for (int side = 0; side < kSides; ++side) {
+      const float turn = kTwoPi * static_cast<float>(side) / kSides;
+      rim.push_back(on_eye(eye, kAside_deg + kHalf_deg * std::cos(turn),
+                           kAbove_deg + kHalf_deg * std::sin(turn), kRadii));
+    }
+    Sheet light = points_of(rim, kHeadJoint);
+    for (std::uint32_t side = 1; side + 1 < kSides; ++side)
+      light.triangles.insert(light.triangles.end(), {0, side, side + 1});
+    set_normals(light);
+    add_to(sheet, light);
   }
   return sheet;
 }
@@ -167,6 +201,7 @@ Sheet FaceMaker::lids() const {
       Sheet lid = sheet_of(lid_places(eye, lids_at_rest(), upper), shapes);
       join_rows(lid, 0, kLidRows, kLidColumns, RowEnds::kOpen);
       set_normals(lid);
+      if (!upper) light_as_cheek(lid);
       add_to(sheet, lid);
     }
   return sheet;

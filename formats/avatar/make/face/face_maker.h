@@ -22,6 +22,11 @@ class FaceMaker {
   const Eigen::Vector3f& eye_m(std::size_t eye) const { return eyes_m_[eye]; }
 
   Sheet eyeballs(const std::array<int, 2>& joints) const;
+  // The ring of both eyeballs between two angles from the direction of sight.
+  Sheet eye_rings(const std::array<int, 2>& joints, float outer_deg, float inner_deg,
+                  int rings) const;
+  // The highlight of an eye; it stays in place while the eye turns.
+  Sheet eye_lights() const;
   Sheet lids() const;
   Sheet lashes() const;
   Sheet brows() const;

@@ -1,7 +1,5 @@
 #include "formats/avatar/make/face/face_surface.h"
 
-#include "formats/body/implicit_surface.h"
-
 namespace dance {
 
 using Eigen::Vector3f;
@@ -11,8 +9,10 @@ FaceSurface::FaceSurface(const TposePlaces& places, const AvatarDesign& design)
   layer_.material = Material::kSkin;
   layer_.cell_m = scale_ * 0.0075f;
   layer_.blend_m = scale_ * 0.018f;
+  layer_.skinning = FigureSkinning::kNeck;
   add_skull(design.face);
   add_features(design.face);
+  distance_ = std::make_unique<const LayerDistance>(layer_);
 }
 
 FigurePart FaceSurface::part(const Vector3f& a_m, float radius_a_m, const Vector3f& b_m,
@@ -49,11 +49,15 @@ void FaceSurface::add_skull(FaceShape shape) {
 void FaceSurface::add_features(FaceShape shape) {
   const bool strong = shape == FaceShape::kStrong;
   // Bridge and tip of the nose, and its wings.
-  layer_.parts.push_back(
-      part({0, 0.098f, 0.079f}, 0.0075f, {0, 0.066f, 0.098f}, strong ? 0.0115f : 0.0095f));
+  layer_.parts.push_back(part({0, 0.098f, 0.079f}, strong ? 0.007f : 0.0055f, {0, 0.066f, 0.098f},
+                              strong ? 0.0095f : 0.0075f));
   for (const float s : {1.0f, -1.0f}) {
-    layer_.parts.push_back(part({0.008f * s, 0.062f, 0.089f}, strong ? 0.0085f : 0.007f,
-                                {0.008f * s, 0.062f, 0.089f}, 0.007f));
+    const float wing_m = strong ? 0.007f : 0.0055f;
+    layer_.parts.push_back(
+        part({0.008f * s, 0.062f, 0.088f}, wing_m, {0.008f * s, 0.062f, 0.088f}, wing_m));
+    // Full cheeks: hollow cheeks look ill in stage light.
+    layer_.parts.push_back(
+        part({0.03f * s, 0.05f, 0.046f}, 0.031f, {0.036f * s, 0.058f, 0.04f}, 0.029f));
     // Cheekbones, brow ridges, ears.
     layer_.parts.push_back(
         part({0.036f * s, 0.066f, 0.05f}, 0.021f, {0.05f * s, 0.074f, 0.03f}, 0.018f));
@@ -70,14 +74,14 @@ Vector3f FaceSurface::on(float x_m, float y_m, float lift_m) const {
   float inside_m = -0.02f;
   for (int i = 0; i < kHalvings; ++i) {
     const float z_m = 0.5f * (outside_m + inside_m);
-    (signed_distance_m(layer_, at({x_m, y_m, z_m})) > 0.0f ? outside_m : inside_m) = z_m;
+    (distance_->at(at({x_m, y_m, z_m})) > 0.0f ? outside_m : inside_m) = z_m;
   }
   const Vector3f place = at({x_m, y_m, outside_m});
   constexpr float kStep_m = 1e-3f;
   Vector3f out;
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3f step = kStep_m * Vector3f::Unit(axis);
-    out[axis] = signed_distance_m(layer_, place + step) - signed_distance_m(layer_, place - step);
+    out[axis] = distance_->at(place + step) - distance_->at(place - step);
   }
   return place + scale_ * lift_m * out.normalized();
 }

@@ -8,8 +8,11 @@
 // Failure:      on() beside the head gives a place at its side.
 #pragma once
 
+#include <memory>
+
 #include "formats/avatar/make/avatar_design.h"
 #include "formats/body/figure_builder.h"
+#include "formats/body/implicit_surface.h"
 
 namespace dance {
 
@@ -33,6 +36,7 @@ class FaceSurface {
   Eigen::Vector3f neck_m_;
   float scale_;
   FigureLayer layer_;
+  std::unique_ptr<const LayerDistance> distance_;  // of the whole layer
 };
 
 }  // namespace dance

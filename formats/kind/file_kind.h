@@ -1,9 +1,8 @@
-// The kinds of files that hold dances, by the ends of their names, in any case.
+// The kinds of files that hold dances. A file to read is known by its content, and by the end of
+// its name only where the content does not tell; a file to write by the end of its name, in any
+// case.
 //
-// Units/frames: none.
-// Ownership:    returns new texts.
-// Threads:      any.
-// Failure:      an unknown end is an Error that lists the known ones.
+// Failure:      an Error names the file and what it is, or lists the known ends.
 #pragma once
 
 #include <string>
@@ -14,6 +13,7 @@ namespace dance {
 
 enum class FileKind { kLcm, kBvh, kGlb, kMcap, kCsv };
 
+// The Error for a file that holds something else names its kind and the command that takes it.
 Result<FileKind> input_kind(const std::string& path);
 Result<FileKind> output_kind(const std::string& path);
 

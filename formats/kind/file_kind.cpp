@@ -1,4 +1,4 @@
-#include "formats/clip/file_kind.h"
+#include "formats/kind/file_kind.h"
 
 #include <algorithm>
 #include <array>
@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/base/guest_id.h"
+#include "formats/kind/file_content.h"
 
 namespace dance {
 namespace {
@@ -29,6 +30,7 @@ std::string lower(std::string text) {
   return text;
 }
 
+// The kind that the end of the name tells.
 Result<FileKind> kind_of(const std::string& path, bool is_output) {
   const std::string name = lower(path);
   std::string known;
@@ -37,13 +39,47 @@ Result<FileKind> kind_of(const std::string& path, bool is_output) {
     if (name.ends_with(end.end)) return end.kind;
     known += (known.empty() ? "" : " ") + std::string(end.end);
   }
-  return fail(path + ": its name does not end in what can be " +
-              (is_output ? "written: " : "read: ") + known);
+  return fail(path +
+              (is_output ? ": its name does not end in what can be written: "
+                         : ": is none of the kinds that can be read: ") +
+              known);
+}
+
+// The kind of a file whose content does not tell.
+Result<FileKind> kind_by_name(const std::string& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (std::filesystem::is_directory(status))
+    return fail(path + ": is a folder, not a recorded dance; name a file in it");
+  auto kind = kind_of(path, false);
+  if (kind || std::filesystem::is_regular_file(status)) return kind;
+  if (!std::filesystem::exists(status)) return fail(path + ": no such file");
+  return FileKind::kLcm;  // a pipe: only logs are read as they come
 }
 
 }  // namespace
 
-Result<FileKind> input_kind(const std::string& path) { return kind_of(path, false); }
+Result<FileKind> input_kind(const std::string& path) {
+  const FileContent content = content_of_file(path);
+  switch (content) {
+    case FileContent::kLcmLog:
+      return FileKind::kLcm;
+    case FileContent::kBvh:
+      return FileKind::kBvh;
+    case FileContent::kGlb:
+    case FileContent::kGltf:
+      return FileKind::kGlb;
+    case FileContent::kMcap:
+      return FileKind::kMcap;
+    case FileContent::kTable:
+      return FileKind::kCsv;
+    case FileContent::kUnknown:
+    case FileContent::kEmpty:
+      return kind_by_name(path);
+    default:
+      return fail(path + ": " + wrong_content(content, "a recorded dance"));
+  }
+}
 Result<FileKind> output_kind(const std::string& path) { return kind_of(path, true); }
 
 std::string guest_name_of(std::string name) {
