@@ -20,14 +20,18 @@ class TokenBucket {
       : per_second_(per_second), burst_(burst), level_(burst) {}
 
   bool take(double tokens, MonoTime now) {
+    if (level(now) < tokens) return false;
+    level_ -= tokens;
+    return true;
+  }
+  // Tokens that are left.
+  double level(MonoTime now) {
     if (now > filled_at_) {
       const double elapsed_s = filled_at_.is_set() ? (now - filled_at_).as_seconds() : 0.0;
       level_ = std::min(burst_, level_ + per_second_ * elapsed_s);
       filled_at_ = now;
     }
-    if (level_ < tokens) return false;
-    level_ -= tokens;
-    return true;
+    return level_;
   }
 
  private:

@@ -1,48 +1,44 @@
 #include "core/bus/bus.h"
 
-#include <lcm/lcm.h>
-
-#include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <mutex>
 #include <vector>
 
-#include "core/bus/channel_filter.h"
-#include "core/bus/multicast_route.h"
+#include "core/base/assert.h"
+#include "core/base/printable.h"
+#include "core/bus/bus_socket.h"
+#include "core/bus/datagram.h"
 
 namespace dance {
 namespace {
 
-// LCM's own queue per subscription: more than a turn can ever leave pending (64 guests, 10 s at 60
-// Hz would not fit, but a process that sleeps for 10 s has lost them anyway). Its default of 30
-// loses poses at the first stall of 30 guests.
-constexpr int kLcmQueueCapacity = 4096;
-// Messages handled in one turn before the other descriptors get theirs.
-constexpr int kMessagesPerTurn = 8192;
+// The names of the channels that a subscription receives: one, or all with a beginning.
+struct Names {
+  std::string text;
+  bool is_beginning;
+  bool includes(std::string_view name) const {
+    return is_beginning ? name.starts_with(text) : name == text;
+  }
+};
 
-std::int64_t max_receive_buffer_bytes() {
-  std::ifstream file("/proc/sys/net/core/rmem_max");
-  std::int64_t bytes = 212'992;  // stock Debian
-  file >> bytes;
-  return std::min<std::int64_t>(bytes, 4 << 20);
+Names names_of(Signal signal, const From& from) {
+  const std::string word = std::string(signal_name(signal)) + "/";
+  if (from.where == Where::kLocal) return {word + "local", false};
+  if (from.where == Where::kProgram) return {word, true};
+  const std::string place = word + std::string(where_name(from.where)) + "/";
+  if (from.guest.is_set()) return {place + std::string(from.guest.view()), false};
+  return {place, true};
 }
 
-// Of the names of channels, as LCM takes it.
-std::string regex_of(Signal signal, const From& from) {
-  constexpr const char* kAnyName = "[a-z0-9-]+";
-  const std::string name = std::string(signal_name(signal)) + "/";
-  if (from.where == Where::kLocal) return name + "local";
-  if (from.where == Where::kProgram) return name + kAnyName;
-  return name + std::string(where_name(from.where)) + "/" +
-         (from.guest.is_set() ? std::string(from.guest.view()) : kAnyName);
+Names names_of(const ChannelPattern& pattern) {
+  const std::string_view text = pattern.text();
+  if (!pattern.is_prefix()) return {std::string(text), false};
+  return {std::string(text.substr(0, text.size() - 1)), true};
 }
 
-// Two that begin at once would be taken for each other.
-std::mutex one_bus_at_a_time;
-
-// Every channel, undecoded.
+// Passes on every channel, undecoded.
 class AllChannels final : public Listener {
  public:
   explicit AllChannels(Bus::RawHandler handler) : handler_(std::move(handler)) {}
@@ -54,7 +50,7 @@ class AllChannels final : public Listener {
   Bus::RawHandler handler_;
 };
 
-// Channels of a pattern, undecoded: the regex may take in more than the pattern.
+// Passes on the channels of a pattern, undecoded.
 class PatternSubscription final : public Listener {
  public:
   PatternSubscription(const ChannelPattern& pattern, Delivery delivery, std::size_t max_bytes,
@@ -65,7 +61,7 @@ class PatternSubscription final : public Listener {
         handler_(std::move(handler)) {}
 
   void take(const Arrival& arrival, SignalCounters& counters) override {
-    // Another subscriber's, or what came from another house.
+    // Names that came from another house have the pattern's beginning too.
     if (!pattern_.matches(arrival.name)) return;
     if (arrival.size > max_bytes_) {
       ++counters.oversized;
@@ -78,11 +74,13 @@ class PatternSubscription final : public Listener {
     }
     auto* slot = newest_.find(arrival.name);
     Name name;
-    if (!slot && name.assign(arrival.name)) slot = newest_.add(name, Bytes(max_bytes_));
-    if (!slot) {
-      ++counters.unknown;
-      return;
-    }
+    if (!slot && name.assign(arrival.name))
+      slot = &newest_.add(
+          name, [this] { return Bytes(max_bytes_); },
+          [&](const Name& other, const Bytes& message) {
+            handler_(other.view(), message.bytes.data(), message.size, arrival.now);
+          });
+    DANCE_ASSERT(slot != nullptr, arrival.name.size());
     ++counters.received;
     if (slot->is_fresh) ++counters.superseded;
     slot->message.size = arrival.size;
@@ -111,59 +109,66 @@ class PatternSubscription final : public Listener {
   NewestSlots<Name, Bytes> newest_;
 };
 
+// A program may have several buses; a change is printed once.
+void print_network_change(const std::string& url, const std::string& change) {
+  static std::mutex mutex;
+  static std::string last;
+  const std::lock_guard lock(mutex);
+  const std::string line = "bus " + printable(url) + ": " + change;
+  if (line == last) return;
+  last = line;
+  std::fprintf(stderr, "%s\n", line.c_str());
+}
+
 }  // namespace
 
 struct Bus::Impl {
-  // What LCM calls back.
   struct Listening {
-    Impl& bus;
+    Names names;
     std::shared_ptr<Listener> listener;
   };
 
-  lcm_t* lcm = nullptr;
-  int port = 0;
-  bool is_hearing = false;
-  int socket = -1;  // LCM's, by which it hears; -1: not yet, or not found
-  ChannelFilter filter;
+  BusSocket socket;
   std::string url;
   Counters counters;
-  std::vector<std::unique_ptr<Listening>> listeners;
-  MonoTime now;  // of the turn that is being drained
+  std::vector<Listening> listeners;
+  RefusedHandler on_refused;
+  int turns_until_look = 0;
 
-  ~Impl() {
-    if (lcm) lcm_destroy(lcm);
+  void listen(Names names, std::shared_ptr<Listener> listener) {
+    // First, so that a message which arrives at once finds its listener.
+    listeners.push_back({names, std::move(listener)});
+    socket.want(names.text);
   }
-  // LCM makes the socket that it hears by when something first needs it, and does not tell it.
-  template <class Need>
-  auto with_socket(Need need) {
-    if (is_hearing) return need();
-    const std::scoped_lock lock(one_bus_at_a_time);
-    const std::vector<int> before = udp_sockets_on(port);
-    const auto got = need();
-    for (const int fd : udp_sockets_on(port))
-      if (std::find(before.begin(), before.end(), fd) == before.end()) socket = fd;
-    is_hearing = true;
-    if (socket >= 0) filter.attach(socket);
-    return got;
+  void take(std::span<const std::uint8_t> bytes, MonoTime now) {
+    const BusDatagram datagram = parse_datagram(bytes);
+    switch (datagram.kind) {
+      case BusDatagram::Kind::kMalformed:
+        ++counters.malformed;
+        return;
+      case BusDatagram::Kind::kFragment:
+        ++counters.fragments;
+        if (on_refused && !datagram.name.empty()) on_refused(datagram.name);
+        return;
+      case BusDatagram::Kind::kMessage:
+        break;
+    }
+    const Arrival arrival{datagram.name, datagram.data.data(), datagram.data.size(), now};
+    // The loop uses an index, because a handler may subscribe.
+    for (std::size_t i = 0; i < listeners.size(); ++i)
+      if (listeners[i].names.includes(arrival.name)) listeners[i].listener->take(arrival, counters);
   }
-  static void on_message(const lcm_recv_buf_t* bytes, const char* name, void* listening) {
-    const auto& [bus, listener] = *static_cast<Listening*>(listening);
-    listener->take({name, bytes->data, bytes->data_size, bus.now}, bus.counters);
+  // In a turn without messages the descriptor was readable because of a network report. While
+  // every turn has messages, reports are read every 1024 turns.
+  void follow_network(bool is_quiet) {
+    constexpr int kTurnsBetweenLooks = 1024;
+    if (!is_quiet && --turns_until_look > 0) return;
+    turns_until_look = kTurnsBetweenLooks;
+    const std::string change = socket.follow_network();
+    if (!change.empty()) print_network_change(url, change);
   }
-  void listen(const std::string& regex, std::shared_ptr<Listener> listener) {
-    filter.want(regex);
-    listeners.push_back(std::make_unique<Listening>(Listening{*this, std::move(listener)}));
-    lcm_subscription_t* handle = with_socket(
-        [&] { return lcm_subscribe(lcm, regex.c_str(), on_message, listeners.back().get()); });
-    if (handle) lcm_subscription_set_queue_capacity(handle, kLcmQueueCapacity);
-    if (socket >= 0) filter.attach(socket);
-  }
-  int fd() {
-    return with_socket([&] { return lcm_get_fileno(lcm); });
-  }
-  void publish_bytes(const char* channel, const void* data, std::size_t size) {
-    if (lcm_publish(lcm, channel, data, static_cast<unsigned>(size)) != 0)
-      ++counters.publish_failed;
+  void publish_bytes(std::string_view channel, const void* data, std::size_t size) {
+    if (!socket.send(channel, data, size)) ++counters.publish_failed;
   }
 };
 
@@ -177,21 +182,20 @@ std::string bus_url_or_default(const std::string& given) {
 }
 
 Result<std::unique_ptr<Bus>> Bus::open(const std::string& given_url) {
-  std::string url = bus_url_or_default(given_url);
+  const std::string url = bus_url_or_default(given_url);
   DANCE_TRY(const BusAddress address, parse_udpm_url(url));
-  if (multicast_device(address.group).empty())
-    return fail("bus " + url + ": this machine has no route for multicast; add one with: " +
-                std::string(kMulticastCure));
-  auto impl = std::make_unique<Impl>();
-  impl->url = url;
-  impl->port = address.port;
-  if (url.find("recv_buf_size=") == std::string::npos)
-    url += (url.find('?') == std::string::npos ? "?" : "&") + std::string("recv_buf_size=") +
-           std::to_string(max_receive_buffer_bytes());
-  impl->lcm = lcm_create(url.c_str());
-  if (!impl->lcm)
-    return fail("bus " + impl->url + ": LCM could not open it; `dance doctor` says why");
-  return std::unique_ptr<Bus>(new Bus(std::move(impl)));
+  auto socket = BusSocket::open(address);
+  if (!socket) return fail("bus " + printable(url) + ": " + socket.error().what);
+  static std::once_flag once;
+  if (address.ttl > 0)
+    std::call_once(once, [&] {
+      std::fprintf(stderr,
+                   "bus %s: ttl=%d opens it to the network: any host there can see the dancers and "
+                   "publish as them\n",
+                   printable(url).c_str(), address.ttl);
+    });
+  return std::unique_ptr<Bus>(
+      new Bus(std::make_unique<Impl>(Impl{std::move(*socket), url, {}, {}, {}, 0})));
 }
 
 Bus::Bus(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -200,7 +204,7 @@ Bus::~Bus() = default;
 void Bus::send(const Channel& channel, const AnyMessage& message) {
   MessageBuffer buffer;
   const std::size_t size = message.encode(buffer);
-  impl_->publish_bytes(channel.c_str(), buffer.data(), size);
+  impl_->publish_bytes(channel.view(), buffer.data(), size);
 }
 
 void Bus::publish_raw(const char* channel, const void* data, std::size_t size) {
@@ -208,27 +212,35 @@ void Bus::publish_raw(const char* channel, const void* data, std::size_t size) {
 }
 
 void Bus::add(std::shared_ptr<Subscription> subscription) {
-  const std::string regex = regex_of(subscription->signal(), subscription->from());
-  impl_->listen(regex, std::move(subscription));
+  Names names = names_of(subscription->signal(), subscription->from());
+  impl_->listen(std::move(names), std::move(subscription));
 }
 
 void Bus::on_anything(RawHandler handler) {
-  impl_->listen(".*", std::make_shared<AllChannels>(std::move(handler)));
+  impl_->listen({"", true}, std::make_shared<AllChannels>(std::move(handler)));
 }
+
+void Bus::on_refused(RefusedHandler handler) { impl_->on_refused = std::move(handler); }
 
 void Bus::on_raw(const ChannelPattern& pattern, Delivery delivery, std::size_t max_bytes,
                  RawHandler handler) {
-  impl_->listen(pattern.regex(), std::make_shared<PatternSubscription>(pattern, delivery, max_bytes,
-                                                                       std::move(handler)));
+  impl_->listen(names_of(pattern), std::make_shared<PatternSubscription>(
+                                       pattern, delivery, max_bytes, std::move(handler)));
 }
 
-int Bus::fd() const { return impl_->fd(); }
+int Bus::fd() const { return impl_->socket.fd(); }
 
 void Bus::drain(MonoTime now) {
-  impl_->now = now;
-  for (int i = 0; i < kMessagesPerTurn; ++i)
-    if (lcm_handle_timeout(impl_->lcm, 0) <= 0) break;
-  for (const auto& listening : impl_->listeners) listening->listener->deliver(now);
+  std::size_t handled = 0;
+  while (handled < kMessagesPerTurn) {
+    const auto batch = impl_->socket.receive();
+    for (const auto bytes : batch) impl_->take(bytes, now);
+    handled += batch.size();
+    if (batch.size() < BusSocket::kBatch) break;
+  }
+  for (std::size_t i = 0; i < impl_->listeners.size(); ++i)
+    impl_->listeners[i].listener->deliver(now);
+  impl_->follow_network(handled == 0);
 }
 
 const Bus::Counters& Bus::counters() const { return impl_->counters; }

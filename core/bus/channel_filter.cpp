@@ -1,29 +1,24 @@
 #include "core/bus/channel_filter.h"
 
-#include <dirent.h>
 #include <linux/filter.h>
-#include <netinet/in.h>
+#include <linux/if_packet.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <charconv>
 #include <cstdint>
-#include <memory>
+#include <span>
 
-#include "core/bus/channel.h"
+#include "core/bus/datagram.h"
 
 namespace dance {
 namespace {
 
-// Of what the kernel shows a filter: a UDP header, LCM's magic and sequence, the name.
+using Program = std::vector<sock_filter>;
+
+// A filter of a UDP socket sees the UDP header (8 bytes), then the datagram.
 constexpr std::uint32_t kMagicAt = 8;
 constexpr std::uint32_t kNameAt = 16;
-constexpr std::uint32_t kShortMessage =
-    0x4c433032;  // "LC02"; parts of longer messages have no name and are let through
-// Reading beyond a datagram's end would drop it: one so short that a name might end there is let
-// through.
-constexpr std::uint32_t kSureToHoldAName = kNameAt + kMaxChannelLength + 1;
 constexpr std::uint32_t kPass = 0xffffffff;
 constexpr std::uint32_t kDrop = 0;
 
@@ -33,14 +28,26 @@ std::uint32_t word_of(std::string_view bytes) {
   return word;
 }
 
-// How the kernel loads so many bytes.
+// The instruction that loads this many bytes (1, 2 or 4).
 std::uint16_t load_of(std::size_t size) {
   return BPF_LD | BPF_ABS | (size == 4 ? BPF_W : size == 2 ? BPF_H : BPF_B);
 }
 
-// Passes what begins so, and goes on behind itself with everything else.
-void append_beginning(std::string_view beginning, std::vector<sock_filter>& program) {
-  std::vector<sock_filter> tests;
+std::uint32_t extra(int which) { return static_cast<std::uint32_t>(SKF_AD_OFF + which); }
+
+// Drops what another machine sent. Programs that send over the default device, as LCM's own do
+// without a route over lo, arrive here as copies that the kernel looped back: it marks those.
+void append_this_machine_only(Program& program) {
+  program.insert(program.end(), {BPF_STMT(load_of(4), extra(SKF_AD_IFINDEX)),
+                                 BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, kLoopbackIndex, 3, 0),
+                                 BPF_STMT(load_of(4), extra(SKF_AD_PKTTYPE)),
+                                 BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, PACKET_LOOPBACK, 1, 0),
+                                 BPF_STMT(BPF_RET | BPF_K, kDrop)});
+}
+
+// Passes names with this beginning; others go on to the instruction behind.
+void append_beginning(std::string_view beginning, Program& program) {
+  Program tests;
   for (std::size_t at = 0; at < beginning.size();) {
     const std::size_t left = beginning.size() - at;
     const std::size_t size = left >= 4 ? 4 : left >= 2 ? 2 : 1;
@@ -55,71 +62,60 @@ void append_beginning(std::string_view beginning, std::vector<sock_filter>& prog
   program.insert(program.end(), tests.begin(), tests.end());
 }
 
-std::vector<sock_filter> program_of(const std::vector<std::string>& beginnings) {
-  std::vector<sock_filter> program{
-      BPF_STMT(BPF_LD | BPF_W | BPF_LEN, 0),
-      BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, kSureToHoldAName, 1, 0),
-      BPF_STMT(BPF_RET | BPF_K, kPass),
-      BPF_STMT(load_of(4), kMagicAt),
-      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, kShortMessage, 1, 0),
-      BPF_STMT(BPF_RET | BPF_K, kPass),
-  };
+// A load beyond a datagram's end drops it. Beginnings stand shortest first, so a datagram that is
+// too short for one is too short for all behind it.
+Program program_of(ChannelFilter::Reach reach, std::span<const std::string> beginnings) {
+  Program program;
+  if (beginnings.empty()) return {BPF_STMT(BPF_RET | BPF_K, kDrop)};
+  if (reach == ChannelFilter::Reach::kThisMachine) append_this_machine_only(program);
+  const bool is_everything = beginnings[0].empty();
+  program.push_back(BPF_STMT(load_of(4), kMagicAt));
+  if (is_everything)
+    program.insert(program.end(),
+                   {BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, kFragmentMagic, 2, 0),
+                    BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, kShortMessageMagic, 1, 0),
+                    BPF_STMT(BPF_RET | BPF_K, kDrop), BPF_STMT(BPF_RET | BPF_K, kPass)});
+  else
+    program.insert(program.end(), {BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, kShortMessageMagic, 1, 0),
+                                   BPF_STMT(BPF_RET | BPF_K, kDrop)});
+  if (is_everything) return program;
   for (const std::string& beginning : beginnings) append_beginning(beginning, program);
   program.push_back(BPF_STMT(BPF_RET | BPF_K, kDrop));
   return program;
 }
 
-bool is_udp_socket_on(int fd, int port) {
-  int type = 0;
-  socklen_t size = sizeof type;
-  if (getsockopt(fd, SOL_SOCKET, SO_TYPE, &type, &size) != 0 || type != SOCK_DGRAM) return false;
-  sockaddr_in address{};
-  size = sizeof address;
-  return getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size) == 0 &&
-         address.sin_family == AF_INET && ntohs(address.sin_port) == port;
+bool attach_program(int socket_fd, Program& program) {
+  const sock_fprog code{static_cast<unsigned short>(program.size()), program.data()};
+  return setsockopt(socket_fd, SOL_SOCKET, SO_ATTACH_FILTER, &code, sizeof code) == 0;
+}
+
+// Whether one socket has room for both programs at once, tried on a socket of its own.
+bool fit_together(Program& one, Program& other) {
+  const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  if (fd < 0) return false;
+  const bool fit = attach_program(fd, one) && attach_program(fd, other);
+  close(fd);
+  return fit;
 }
 
 }  // namespace
-
-std::string_view plain_beginning(std::string_view regex) {
-  if (regex.find('|') != std::string_view::npos) return {};
-  const std::size_t end = std::min(regex.find_first_of("\\^$.[](){}*+?"), regex.size());
-  // A character that may be there or not.
-  const bool is_last_counted = end < regex.size() && end > 0 &&
-                               std::string_view("{*?").find(regex[end]) != std::string_view::npos;
-  return regex.substr(0, is_last_counted ? end - 1 : end);
-}
-
-std::vector<int> udp_sockets_on(int port) {
-  std::vector<int> sockets;
-  const std::unique_ptr<DIR, int (*)(DIR*)> folder(opendir("/proc/self/fd"), closedir);
-  if (!folder) return sockets;
-  while (const dirent* entry = readdir(folder.get())) {  // NOLINT(concurrency-mt-unsafe): ours
-    const std::string_view name = entry->d_name;
-    int fd = -1;
-    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), fd);
-    if (error == std::errc() && is_udp_socket_on(fd, port)) sockets.push_back(fd);
-  }
-  std::sort(sockets.begin(), sockets.end());
-  return sockets;
-}
 
 void ChannelFilter::insert(std::string beginning) {
   for (const std::string& wider : beginnings_)
     if (beginning.starts_with(wider)) return;
   std::erase_if(beginnings_, [&](const std::string& b) { return b.starts_with(beginning); });
-  beginnings_.push_back(std::move(beginning));
+  const auto longer =
+      std::find_if(beginnings_.begin(), beginnings_.end(),
+                   [&](const std::string& b) { return b.size() > beginning.size(); });
+  beginnings_.insert(longer, std::move(beginning));
 }
 
-void ChannelFilter::want(std::string_view regex) {
-  insert(std::string(plain_beginning(regex).substr(0, kMaxChannelLength)));
+void ChannelFilter::want(std::string_view beginning) {
+  insert(std::string(beginning.substr(0, kMaxChannelLength)));
   while (beginnings_.size() > kMostBeginnings) {
-    const auto longest =
-        std::max_element(beginnings_.begin(), beginnings_.end(),
-                         [](const auto& a, const auto& b) { return a.size() < b.size(); });
-    std::string shorter = std::move(*longest);
-    beginnings_.erase(longest);
-    // To the slash before its last character; without one, everything is let through.
+    std::string shorter = std::move(beginnings_.back());
+    beginnings_.pop_back();
+    // Cuts at the slash before the last character; without one, everything passes.
     const std::size_t slash =
         shorter.size() < 2 ? std::string::npos : shorter.rfind('/', shorter.size() - 2);
     shorter.resize(slash == std::string::npos ? 0 : slash + 1);
@@ -127,20 +123,20 @@ void ChannelFilter::want(std::string_view regex) {
   }
 }
 
+// The kernel holds the old and the new program at once while it replaces one. A full program is
+// therefore attached only where the shortest fits beside it, so that the next change can go through
+// the shortest again.
 bool ChannelFilter::attach(int socket_fd) const {
-  const auto detach = [&] {
-    const int unread = 0;  // the kernel looks for a number here, and refuses without
-    return setsockopt(socket_fd, SOL_SOCKET, SO_DETACH_FILTER, &unread, sizeof unread) == 0 ||
-           errno == ENOENT;
-  };
-  if (beginnings_.size() == 1 && beginnings_[0].empty()) return detach();
-  std::vector<sock_filter> program = program_of(beginnings_);
-  const sock_fprog code{static_cast<unsigned short>(program.size()), program.data()};
-  const auto attach = [&] {
-    return setsockopt(socket_fd, SOL_SOCKET, SO_ATTACH_FILTER, &code, sizeof code) == 0;
-  };
-  // Where there is no room for two, the last one stays; it keeps back what is wanted since.
-  return attach() || (detach() && attach());
+  const std::string all[] = {""};
+  Program shortest = program_of(reach_, all), full = program_of(reach_, beginnings_);
+  const bool has_room = fit_together(full, shortest);
+  if (!attach_program(socket_fd, shortest)) return false;
+  return !has_room || attach_program(socket_fd, full);
+}
+
+bool drop_everything(int socket_fd) {
+  Program program{BPF_STMT(BPF_RET | BPF_K, kDrop)};
+  return attach_program(socket_fd, program);
 }
 
 }  // namespace dance

@@ -1,16 +1,14 @@
-// ChannelFilter: a socket filter by which the kernel drops the messages of a bus that this program
-// has not subscribed to. On a multicast bus every program receives every message, and LCM looks at
-// a name only when its thread has been woken and the message copied: in a house that shows thirty
-// dancers that would be 3,600 times a second for a program that only needs the beat.
+// ChannelFilter: a socket filter with which the kernel drops datagrams before they wake the
+// program: those from other machines, unless the bus is open to the network, and those on channels
+// that nothing here subscribed to. On a multicast bus every program receives every message; in a
+// house with thirty dancers that is 3,600 a second for a program that only needs the beat.
 //
-// Ownership: keeps the beginnings of the subscribed names; the socket is LCM's.
-// Threads:   none inside; one owner.
-// Failure:   where the kernel takes no filter, or none as long as this, there is none, and LCM
-//            chooses, as it does anyway: the same messages, with more work. The kernel counts what
-//            it keeps back with what a full buffer loses (`drops` in /proc/net/udp).
-// Source:    BSD packet filter as Linux takes it for any socket
-//            (Documentation/networking/filter.rst); LCM's UDP multicast protocol: "LC02", sequence,
-//            name, NUL, message.
+// Ownership: keeps the beginnings of the subscribed names; the socket stays the caller's.
+// Failure:   attach() returns false where the kernel refuses even the shortest filter. Where only
+//            the full one has no room, the socket gets one that passes all names. Datagrams from
+//            other machines are refused by either. The kernel counts what a filter drops together
+//            with what a full buffer loses (`drops` in /proc/net/udp).
+// Source:    Linux socket filters (Documentation/networking/filter.rst).
 #pragma once
 
 #include <cstddef>
@@ -20,31 +18,38 @@
 
 namespace dance {
 
-// How every name begins that a regular expression matches, as far as plain characters tell:
-// "POSE/guest/" of "POSE/guest/[a-z0-9-]+", and nothing of ".*".
-std::string_view plain_beginning(std::string_view regex);
-
-// The UDP sockets of this process that are bound to a port.
-std::vector<int> udp_sockets_on(int port);
+// The index of the loopback device in every Linux network namespace.
+constexpr int kLoopbackIndex = 1;
 
 class ChannelFilter {
  public:
-  // More are cut shorter until they are so few: a program for the kernel has a bound.
+  enum class Reach {
+    kThisMachine,  // only what a program of this machine sent
+    kNetwork,
+  };
+  // More beginnings are shortened until they are this few: the kernel bounds a filter's size.
   static constexpr std::size_t kMostBeginnings = 16;
 
-  // From now on names that `regex` matches are wanted too. What is let through may be more than
-  // what is wanted.
-  void want(std::string_view regex);
-  // In place of the one before. False where the kernel does not take it; then the socket has none.
+  explicit ChannelFilter(Reach reach) : reach_(reach) {}
+
+  // Adds names with this beginning to those that pass; "" adds all names and fragments. More than
+  // that may pass.
+  void want(std::string_view beginning);
+  // Replaces the socket's filter by this one. The socket is never without a filter.
   bool attach(int socket_fd) const;
 
-  // None contains another; "" alone: everything; empty: nothing is wanted yet.
+  // The list is sorted by length; no entry is a prefix of another.
   const std::vector<std::string>& beginnings() const { return beginnings_; }
+  bool wants_everything() const { return beginnings_.size() == 1 && beginnings_[0].empty(); }
 
  private:
   void insert(std::string beginning);
 
+  Reach reach_;
   std::vector<std::string> beginnings_;
 };
+
+// A filter for a socket that only sends: everything that arrives is dropped.
+bool drop_everything(int socket_fd);
 
 }  // namespace dance

@@ -86,13 +86,4 @@ bool ChannelPattern::matches(std::string_view name) const {
   return is_prefix_ ? name.starts_with(own.substr(0, own.size() - 1)) : name == own;
 }
 
-std::string ChannelPattern::regex() const {
-  std::string regex;
-  for (const char c : text_.view()) {
-    if (c == '.') regex += '\\';
-    regex += c == '*' ? std::string(".*") : std::string(1, c);
-  }
-  return regex;
-}
-
 }  // namespace dance

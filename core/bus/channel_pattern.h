@@ -39,8 +39,6 @@ class ChannelPattern {
   bool matches(std::string_view name) const;
   std::string_view text() const { return text_.view(); }
   bool is_prefix() const { return is_prefix_; }
-  // What LCM subscribes with; it may take in more than matches().
-  std::string regex() const;
 
  private:
   FixedString<kMaxForeignName + 1> text_;

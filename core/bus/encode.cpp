@@ -116,6 +116,17 @@ struct MessageFields<Music> {
 };
 
 template <>
+struct MessageFields<RoomSong> {
+  using Generated = dancelcm::song_t;
+  static bool map(auto io, auto& m, auto& v) {
+    return map_stamp(io, m, v) && io(m.start_time_us, v.start_time) &&
+           io(m.start_beat, v.start_beat) && io(m.seed, v.seed) && io(m.style, v.style) &&
+           io(m.playing, v.playing) && io(m.locked, v.locked) && io(m.tempo_count, v.tempo_count) &&
+           io(m.tempo_bar, v.tempo_bar) && io(m.tempo_centi_bpm, v.tempo_centi_bpm);
+  }
+};
+
+template <>
 struct MessageFields<Scene> {
   using Generated = dancelcm::scene_t;
   static bool map(auto io, auto& m, auto& v) {
@@ -324,6 +335,31 @@ struct MessageFields<InterestWish> {
   using Generated = dancelcm::interest_t;
   static bool map(auto io, auto& m, auto& v) {
     return map_stamp(io, m, v) && io(m.viewer, v.viewer) && io(m.hidden, v.hidden);
+  }
+};
+
+template <>
+struct MessageFields<Profile> {
+  using Generated = dancelcm::profile_t;
+  static bool map(auto io, auto& m, auto& v) {
+    return map_stamp(io, m, v) && io(m.shown_name, v.shown_name) &&
+           io(m.is_recording, v.is_recording) && io(m.is_host, v.is_host);
+  }
+};
+
+template <>
+struct MessageFields<RecordingState> {
+  using Generated = dancelcm::recording_t;
+  static bool map(auto io, auto& m, auto& v) {
+    return map_stamp(io, m, v) && io(m.viewer, v.viewer) && io(m.is_recording, v.is_recording);
+  }
+};
+
+template <>
+struct MessageFields<Chat> {
+  using Generated = dancelcm::chat_t;
+  static bool map(auto io, auto& m, auto& v) {
+    return map_stamp(io, m, v) && io(m.kind, v.kind) && io(m.text, v.text);
   }
 };
 

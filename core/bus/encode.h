@@ -18,6 +18,7 @@
 #include "core/base/beat.h"
 #include "core/base/steps.h"
 #include "core/bus/channel.h"
+#include "core/bus/chat.h"
 #include "core/bus/house_messages.h"
 #include "core/bus/message_table.h"
 #include "core/bus/messages.h"

@@ -27,6 +27,8 @@ enum class HouseLinkTrouble : std::int8_t {
   kInterrupted,
   kRefused,
   kRemoved,
+  kServerKeyChanged,
+  kClosed,  // the server ended with a goodbye
 };
 
 enum class RemovalVerdict : std::int8_t {
@@ -77,18 +79,27 @@ struct VoiceLevel {
   int cleaned_dbfs = -127;
 };
 
+// A window of this house reports whether it records.
+struct RecordingState {
+  MonoTime time;
+  std::uint64_t clock_id = 0;
+  std::uint64_t viewer = 0;  // identifies the window among those of the house
+  bool is_recording = false;
+};
+
 inline bool is_valid(const HouseLink& link) {
   const auto is_within = [](auto value, auto last) {
     return static_cast<int>(value) >= 0 && value <= last;
   };
   return is_within(link.state, HouseLinkState::kLapsed) &&
-         is_within(link.trouble, HouseLinkTrouble::kRemoved) &&
+         is_within(link.trouble, HouseLinkTrouble::kClosed) &&
          is_within(link.verdict, RemovalVerdict::kOwnGuest) && link.refusal >= 0;
 }
 inline bool is_valid(const Removal& removal) {
   return removal.guest.is_set() && removal.number != 0;
 }
 inline bool is_valid(const InterestWish& wish) { return wish.viewer != 0; }
+inline bool is_valid(const RecordingState& state) { return state.viewer != 0; }
 inline bool is_valid(const VoiceLevel& level) {
   return level.level_dbfs >= -127 && level.level_dbfs <= 0 && level.cleaned_dbfs >= -127 &&
          level.cleaned_dbfs <= 0;

@@ -38,4 +38,8 @@
   ROW(Removal, kRemoval, "REMOVAL")                 \
   ROW(VoiceLevel, kVoiceLevel, "VOICE_LEVEL")       \
   ROW(InterestWish, kInterest, "INTEREST")          \
-  ROW(Face, kFace, "FACE")
+  ROW(Face, kFace, "FACE")                          \
+  ROW(RoomSong, kSong, "SONG")                      \
+  ROW(Profile, kProfile, "PROFILE")                 \
+  ROW(RecordingState, kRecording, "RECORDING")      \
+  ROW(Chat, kChat, "CHAT")

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/text/plain_text.h"
+
 namespace dance {
 namespace {
 
@@ -21,35 +23,31 @@ bool are_within(const std::array<float, kCount>& values, float low, float high) 
 
 }  // namespace
 
-bool is_plain_text(std::string_view text) {
-  const auto byte = [&](std::size_t i) {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
-  };
-  for (std::size_t i = 0; i < text.size();) {
-    const unsigned first = byte(i);
-    if (first < 0x80) {
-      if (first < 0x20 || first == 0x7f) return false;
-      ++i;
-      continue;
-    }
-    const std::size_t more = first >= 0xf0 ? 3 : first >= 0xe0 ? 2 : 1;
-    if (first < 0xc2 || first > 0xf4) return false;
-    std::uint32_t code = first & (0x3fu >> more);
-    for (std::size_t k = 1; k <= more; ++k) {
-      if ((byte(i + k) & 0xc0u) != 0x80u) return false;
-      code = code << 6 | (byte(i + k) & 0x3fu);
-    }
-    constexpr std::uint32_t kLeast[] = {0, 0x80, 0x800, 0x10000};
-    const bool is_surrogate = code >= 0xd800 && code < 0xe000;
-    if (code < kLeast[more] || code > 0x10ffff || is_surrogate || code < 0xa0) return false;
-    i += more + 1;
+bool is_valid(const Music& music) {
+  return is_within(music.start_beats, -1e7, 1e7) && is_within(music.tempo_bpm, 20.0, 400.0) &&
+         is_within(music.beats_per_bar, 1, 16) && is_plain_text(music.title.view());
+}
+
+bool is_valid(const RoomSong& song) {
+  if (!is_within(song.style, 0, RoomSong::kStyles - 1) ||
+      !is_within(song.start_beat, 0, RoomSong::kLastBeat) ||
+      !is_within(song.tempo_count, 1, RoomSong::kMostTempi) || song.tempo_bar[0] != 0)
+    return false;
+  for (int i = 0; i < RoomSong::kMostTempi; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const bool is_used = i < song.tempo_count;
+    if (!is_within(song.tempo_centi_bpm[at], is_used ? 3000 : 0, is_used ? 40000 : 0) ||
+        !is_within(song.tempo_bar[at], 0, is_used ? RoomSong::kLastBar : 0))
+      return false;
+    if (is_used && i > 0 && song.tempo_bar[at] <= song.tempo_bar[at - 1]) return false;
   }
   return true;
 }
 
-bool is_valid(const Music& music) {
-  return is_within(music.start_beats, -1e7, 1e7) && is_within(music.tempo_bpm, 20.0, 400.0) &&
-         is_within(music.beats_per_bar, 1, 16) && is_plain_text(music.title.view());
+bool is_same_song(const RoomSong& a, const RoomSong& b) {
+  return a.start_beat == b.start_beat && a.seed == b.seed && a.style == b.style &&
+         a.playing == b.playing && a.locked == b.locked && a.tempo_count == b.tempo_count &&
+         a.tempo_bar == b.tempo_bar && a.tempo_centi_bpm == b.tempo_centi_bpm;
 }
 
 bool is_valid(const Scene& scene) {
@@ -66,6 +64,12 @@ bool is_valid(const AvatarFile& file) {
   return is_within(file.size_bytes, file.hash.is_set() ? 1 : 0,
                    file.hash.is_set() ? kMaxAvatarFileBytes : 0) &&
          is_plain_text(file.name.view());
+}
+
+// The only check of a shown name between the network and the windows.
+bool is_valid(const Profile& profile) {
+  return profile.shown_name.empty() ||
+         parse_shown_name(profile.shown_name.view()) == profile.shown_name;
 }
 
 bool is_valid(const Placement& placement) {

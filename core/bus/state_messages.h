@@ -1,6 +1,6 @@
-// State: what changes rarely and has to be known by programs that start later: the room's music and
-// scene; each guest's avatar, its file, style and placement. The same fields as the .lcm files of
-// lcmtypes, which say what each means, in this tree's types.
+// State: what changes rarely and has to be known by programs that start later: the room's music,
+// song and scene; each guest's avatar, its file, style, placement and profile. The same fields as
+// the .lcm files of lcmtypes, which document each, in this tree's types.
 //
 // Units/frames: MonoTime of the clock that clock_id names; metres and radians in W; music in beats.
 // Ownership:    plain values, no heap.
@@ -15,6 +15,7 @@
 #include "core/base/file_hash.h"
 #include "core/base/fixed_string.h"
 #include "core/base/guest_id.h"
+#include "core/base/text/shown_name.h"
 #include "core/base/time.h"
 #include "core/signal/style.h"
 
@@ -39,6 +40,26 @@ struct Music {
   double beats_at(MonoTime t) const {
     return playing ? start_beats + (t - start_time).as_seconds() * tempo_bpm / 60.0 : start_beats;
   }
+};
+
+// The house band's song. Styles are numbered as in lcmtypes/song_t.lcm.
+struct RoomSong {
+  static constexpr int kStyles = 8;
+  static constexpr int kMostTempi = 16;
+  static constexpr std::int32_t kLastBar = 9999;
+  static constexpr std::int32_t kLastBeat = 10'000'000;
+
+  MonoTime time;
+  std::uint64_t clock_id = 0;
+  MonoTime start_time;          // of the first bar
+  std::int32_t start_beat = 0;  // its first beat
+  std::uint32_t seed = 0;
+  int style = 0;
+  bool playing = false;
+  bool locked = false;
+  int tempo_count = 1;
+  std::array<std::int32_t, kMostTempi> tempo_bar{};
+  std::array<std::int32_t, kMostTempi> tempo_centi_bpm{12000};
 };
 
 struct Scene {
@@ -81,13 +102,24 @@ struct Placement {
   float heading_rad = 0.0f;
 };
 
-// UTF-8 without control characters.
-bool is_plain_text(std::string_view text);
+// Shown name and signs of a guest.
+struct Profile {
+  MonoTime time;
+  std::uint64_t clock_id = 0;
+  ShownName shown_name;  // "" = the guest's id is shown
+  bool is_recording = false;
+  bool is_host = false;
+};
 
+// Titles and names of files must be plain text (core/base/text/plain_text.h).
 bool is_valid(const Music& music);
+bool is_valid(const RoomSong& song);
+// They differ in nothing but their times.
+bool is_same_song(const RoomSong& a, const RoomSong& b);
 bool is_valid(const Scene& scene);
 bool is_valid(const Avatar& avatar);
 bool is_valid(const AvatarFile& file);
 bool is_valid(const Placement& placement);
+bool is_valid(const Profile& profile);
 
 }  // namespace dance

@@ -8,6 +8,7 @@
 // Failure:      what cannot be handed on is counted, by cause.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <string_view>
@@ -31,6 +32,13 @@ struct SignalCounters {
   std::uint64_t unknown = 0;      // on a channel that we subscribed to but cannot parse
   std::uint64_t publish_failed = 0;
   std::uint64_t oversized = 0;  // undecoded and longer than its subscriber takes
+  std::uint64_t malformed = 0;  // datagrams that are not of LCM's protocol
+  std::uint64_t fragments = 0;  // refused: parts of messages longer than a datagram
+
+  // Counts messages whose content kept them from every handler.
+  std::uint64_t refused() const {
+    return undecodable + invalid + unknown + oversized + malformed + fragments;
+  }
 };
 
 // Which channels of a signal: <SIGNAL>/<where>/<guest>, of all guests where guest is not set.
@@ -75,7 +83,9 @@ struct Arrival {
   MonoTime now;
 };
 
-// One message per channel, the newest of a turn.
+// The newest message of each channel in a turn. Where more channels are in use than it holds, a new
+// one takes the place of the one that was silent longest, so that made-up channels cannot keep out
+// those that publish steadily.
 template <class Key, class Message>
 class NewestSlots {
  public:
@@ -85,18 +95,31 @@ class NewestSlots {
     Key key;
     Message message;
     bool is_fresh = false;
+    std::uint64_t last_use = 0;
   };
-  // nullptr where there is no room for another channel.
+  // nullptr where the channel has no slot.
   template <class Name>
   Slot* find(const Name& name) {
     for (Slot& slot : slots_)
-      if (slot.key == name) return &slot;
+      if (slot.key == name) {
+        slot.last_use = ++uses_;
+        return &slot;
+      }
     return nullptr;
   }
-  Slot* add(Key key, Message message) {
-    if (slots_.size() == kMaxSlots) return nullptr;
-    slots_.push_back({std::move(key), std::move(message)});
-    return &slots_.back();
+  // A slot for a channel that has none. When all are in use it takes the one that was silent
+  // longest, and delivers that one's message first if it is still waiting.
+  template <class MakeMessage, class Deliver>
+  Slot& add(Key key, const MakeMessage& make_message, const Deliver& to) {
+    if (slots_.size() < kMaxSlots)
+      return slots_.emplace_back(Slot{std::move(key), make_message(), false, ++uses_});
+    Slot& oldest =
+        *std::min_element(slots_.begin(), slots_.end(),
+                          [](const Slot& a, const Slot& b) { return a.last_use < b.last_use; });
+    if (std::exchange(oldest.is_fresh, false)) to(oldest.key, oldest.message);
+    oldest.key = std::move(key);
+    oldest.last_use = ++uses_;
+    return oldest;
   }
   template <class Deliver>
   void deliver(const Deliver& to) {
@@ -106,6 +129,7 @@ class NewestSlots {
 
  private:
   std::vector<Slot> slots_;
+  std::uint64_t uses_ = 0;
 };
 
 // Whatever a bus hands its messages to.
@@ -159,13 +183,12 @@ class TypedSubscription final : public Subscription {
       if (is_decoded(arrival, counters)) handler_(*channel, scratch_, arrival.now);
       return;
     }
-    auto* slot = newest_.find(*channel);
-    if (!slot) slot = newest_.add(*channel, T());
-    if (!slot) {
-      ++counters.unknown;
-      return;
-    }
     if (!is_decoded(arrival, counters)) return;
+    auto* slot = newest_.find(*channel);
+    if (!slot)
+      slot = &newest_.add(
+          *channel, [] { return T(); },
+          [&](const Channel& other, const T& message) { handler_(other, message, arrival.now); });
     if (slot->is_fresh) ++counters.superseded;
     slot->message = scratch_;
     slot->is_fresh = true;

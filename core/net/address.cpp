@@ -4,6 +4,7 @@
 #include <netdb.h>
 #include <netinet/in.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstring>
 #include <optional>
@@ -81,6 +82,17 @@ Result<std::vector<Address>> Address::resolve_all(std::string_view text,
   }
   freeaddrinfo(found);
   return all;
+}
+
+bool Address::is_numeric(std::string_view text) {
+  const auto parts = split(text);
+  if (!parts) return false;
+  addrinfo hints{};
+  hints.ai_flags = AI_NUMERICHOST;
+  addrinfo* found = nullptr;
+  if (getaddrinfo(parts->host.c_str(), nullptr, &hints, &found) != 0) return false;
+  freeaddrinfo(found);
+  return true;
 }
 
 Address Address::from_sockaddr(const sockaddr_storage& raw) {
@@ -163,6 +175,13 @@ Address Address::with_port(std::uint16_t port) const {
   return address;
 }
 
+Address Address::with_asked(const Address& asked) const {
+  Address address = *this;
+  const bool is_source = asked.family_ == family_ && !asked.is_multicast();
+  address.asked_ip_ = is_source ? asked.ip_ : std::array<std::uint8_t, 16>{};
+  return address;
+}
+
 bool Address::is_loopback() const {
   if (family_ == Family::kIpv4) return ip_[0] == 127;
   std::array<std::uint8_t, 16> one{};
@@ -173,6 +192,30 @@ bool Address::is_loopback() const {
 bool Address::is_multicast() const {
   return (family_ == Family::kIpv4 && (ip_[0] & 0xf0) == 0xe0) ||
          (family_ == Family::kIpv6 && ip_[0] == 0xff);
+}
+
+Address::Scope Address::scope() const {
+  if (!is_set() || is_multicast()) return Scope::kNone;
+  if (is_loopback()) return Scope::kMachine;
+  const auto begins = [this](std::initializer_list<std::uint8_t> prefix) {
+    return std::equal(prefix.begin(), prefix.end(), ip_.begin());
+  };
+  if (family_ == Family::kIpv4) {
+    if (ip_[0] == 0 || ip_[0] >= 240) return Scope::kNone;
+    if (begins({169, 254})) return Scope::kLink;
+    const bool is_private = ip_[0] == 10 || begins({192, 168}) ||
+                            (ip_[0] == 172 && (ip_[1] & 0xf0) == 16) ||
+                            (ip_[0] == 100 && (ip_[1] & 0xc0) == 64);
+    return is_private ? Scope::kPrivate : Scope::kInternet;
+  }
+  // An IPv4 address within an IPv6 address counts as that: 64:ff9b::/96 (NAT64), 2002::/16 (6to4).
+  if (begins({0x00, 0x64, 0xff, 0x9b, 0, 0, 0, 0, 0, 0, 0, 0}))
+    return of(std::span(ip_).subspan<12, 4>(), port_).scope();
+  if (begins({0x20, 0x02})) return of(std::span(ip_).subspan<2, 4>(), port_).scope();
+  if (begins({0, 0, 0, 0, 0, 0, 0, 0})) return Scope::kNone;
+  if (ip_[0] == 0xfe && (ip_[1] & 0xc0) == 0x80) return Scope::kLink;
+  const bool is_private = (ip_[0] & 0xfe) == 0xfc || (ip_[0] == 0xfe && (ip_[1] & 0xc0) == 0xc0);
+  return is_private ? Scope::kPrivate : Scope::kInternet;
 }
 
 std::uint64_t Address::network() const {

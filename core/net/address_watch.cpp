@@ -15,8 +15,9 @@ std::unique_ptr<AddressWatch> AddressWatch::open() {
   if (fd < 0) return nullptr;
   sockaddr_nl groups{};
   groups.nl_family = AF_NETLINK;
+  // Links too: when a device goes down, the kernel removes its IPv4 routes without a report.
   groups.nl_groups =
-      RTMGRP_IPV4_IFADDR | RTMGRP_IPV6_IFADDR | RTMGRP_IPV4_ROUTE | RTMGRP_IPV6_ROUTE;
+      RTMGRP_LINK | RTMGRP_IPV4_IFADDR | RTMGRP_IPV6_IFADDR | RTMGRP_IPV4_ROUTE | RTMGRP_IPV6_ROUTE;
   if (bind(fd, reinterpret_cast<const sockaddr*>(&groups), sizeof groups) != 0) {
     close(fd);
     return nullptr;

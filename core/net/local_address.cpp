@@ -4,7 +4,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -53,11 +52,6 @@ std::string folder_of(const std::string& path) { return path.substr(0, path.rfin
 bool is_socket(const std::string& path) {
   struct stat found {};
   return ::lstat(path.c_str(), &found) == 0 && S_ISSOCK(found.st_mode);
-}
-
-std::string errno_text(int error) {
-  std::array<char, 128> text{};
-  return strerror_r(error, text.data(), text.size());
 }
 
 }  // namespace dance

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "core/base/text/errno_text.h"
 
 namespace dance {
 
@@ -27,6 +28,5 @@ bool is_private_folder(const std::string& folder);
 // "/a/b" of "/a/b/c".
 std::string folder_of(const std::string& path);
 bool is_socket(const std::string& path);
-std::string errno_text(int error);
 
 }  // namespace dance

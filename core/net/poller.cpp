@@ -1,5 +1,6 @@
 #include "core/net/poller.h"
 
+#include <poll.h>
 #include <sys/epoll.h>
 #include <sys/prctl.h>
 #include <sys/signalfd.h>
@@ -16,6 +17,7 @@
 
 #include "core/base/assert.h"
 #include "core/base/deadline.h"
+#include "core/base/text/errno_text.h"
 #include "core/net/mono_clock.h"
 
 namespace dance {
@@ -27,10 +29,7 @@ constexpr int kEventsPerTurn = 16;
 // thread matches none.
 std::atomic<pid_t> signal_thread{0};
 
-std::string reason(const char* call) {
-  std::array<char, 128> text{};
-  return std::string(call) + ": " + strerror_r(errno, text.data(), text.size());
-}
+std::string reason(const char* call) { return std::string(call) + ": " + errno_text(errno); }
 
 void add_to_epoll(int epoll_fd, int fd) {
   epoll_event event{};
@@ -97,6 +96,11 @@ Result<void> Poller::stop_on_signals() {
   sigemptyset(&signals);
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
+  // A program that nohup started outlives its terminal. A signal that is blocked and
+  // ignored would still be read below.
+  struct sigaction on_hangup {};
+  if (sigaction(SIGHUP, nullptr, &on_hangup) != 0) return fail(reason("sigaction"));
+  if (on_hangup.sa_handler != SIG_IGN) sigaddset(&signals, SIGHUP);
   if (pthread_sigmask(SIG_BLOCK, &signals, nullptr) != 0) return fail(reason("pthread_sigmask"));
   // Libraries may have started threads before main (OpenBLAS does), in which no signal is blocked:
   // these forward signals.
@@ -108,7 +112,7 @@ Result<void> Poller::stop_on_signals() {
     errno = before;
   };
   handing_on.sa_flags = SA_RESTART;
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction inherited {};
     if (sigaction(signal, nullptr, &inherited) != 0) return fail(reason("sigaction"));
     // A program started in the background of a script may inherit an ignored SIGINT.
@@ -180,6 +184,25 @@ void Poller::run_once(Duration longest) {
   }
   fire_due_timers(now);
   if (count > 0 && turn_end_) turn_end_(now);
+}
+
+bool Poller::wait_for(int fd, Duration longest) {
+  const MonoTime end = mono_now() + longest;
+  while (!stopped_) {
+    const Duration left = end - mono_now();
+    if (left <= Duration()) return false;
+    std::array<pollfd, 2> watched{pollfd{fd, POLLIN, 0}, pollfd{signal_fd_, POLLIN, 0}};
+    const auto timeout_ms = static_cast<int>(std::min<std::int64_t>(left.count_ms() + 1, 60'000));
+    if (poll(watched.data(), watched.size(), timeout_ms) <= 0) continue;
+    if (watched[1].revents != 0) {
+      signalfd_siginfo info{};
+      [[maybe_unused]] const auto n = read(signal_fd_, &info, sizeof info);
+      stopped_ = true;
+    } else if (watched[0].revents != 0) {
+      return true;
+    }
+  }
+  return false;
 }
 
 void Poller::run() {

@@ -1,5 +1,5 @@
 // Poller: the one loop of a process, over the bus, the sockets and timers with absolute deadlines.
-// Sleeps in epoll when nothing is due; SIGINT and SIGTERM end it gracefully when asked to.
+// Sleeps in epoll when nothing is due; SIGINT, SIGTERM and SIGHUP end it gracefully when asked to.
 //
 // Units/frames: deadlines are MonoTime of this process's clock (core/net/mono_clock.h); each turn
 //               reads the clock once and passes it on.
@@ -42,10 +42,13 @@ class Poller {
   // Runs after the handlers of every turn that did something.
   void at_turn_end(OnReadable work) { turn_end_ = std::move(work); }
 
-  // SIGINT and SIGTERM end run() instead of the process. Call before threads are started (LCM
-  // starts some), as these inherit the blocked signals; threads that libraries started before main
-  // forward them.
+  // SIGINT, SIGTERM and SIGHUP, unless nohup ignores it, end run() instead of the process. Call
+  // before threads are started, as these inherit the blocked signals; threads that libraries
+  // started before main forward them.
   Result<void> stop_on_signals();
+  // Waits until a descriptor is readable, a signal stops the loop, or `longest` is over. Runs no
+  // handlers: for programs that are still starting. Returns whether the descriptor is readable.
+  bool wait_for(int fd, Duration longest);
   void stop() { stopped_ = true; }
   bool is_stopped() const { return stopped_; }
 

@@ -18,32 +18,48 @@ constexpr std::size_t kMostNumbered = 64;
 
 }  // namespace
 
-// A bus's URL is no file name: a number of it is.
-std::string control_path(std::string_view program, std::string_view bus_url, const GuestId& guest) {
+// A bus's URL is no file name: a hash of it is.
+std::string control_path(std::string_view program, std::string_view bus_url) {
   std::array<char, 16> text{};
   std::snprintf(text.data(), text.size(), "%08x", folded(fnv1a(bus_url)));
-  return local_socket_folder() + "/" + std::string(program) + "-" + std::string(guest.view()) +
-         "-" + text.data();
+  return local_socket_folder() + "/" + std::string(program) + "-" + text.data();
+}
+
+std::string control_path(std::string_view program, std::string_view bus_url, const GuestId& guest) {
+  return control_path(std::string(program) + "-" + std::string(guest.view()), bus_url);
 }
 
 std::string numbered_control_path(const std::string& path, std::uint64_t number) {
   return path + "." + std::to_string(number);
 }
 
-std::vector<std::string> numbered_control_paths(const std::string& path) {
+namespace {
+
+// Files of that name that `is_wanted` accepts; the bound is on these, so that others hide none.
+std::vector<std::string> numbered_files(const std::string& path,
+                                        bool (*is_wanted)(const std::string& file)) {
   namespace fs = std::filesystem;
   std::vector<std::string> paths;
   const std::string begin = path + ".";
   std::error_code error;  // no folder: nobody is there
   for (fs::directory_iterator entry(folder_of(path), error), end; !error && entry != end;
        entry.increment(error)) {
-    const std::string each = entry->path().string();
-    if (!each.starts_with(begin) || !LocalDatagramSocket::is_served(each)) continue;
-    paths.push_back(each);
+    std::string each = entry->path().string();
+    if (each.starts_with(begin) && is_wanted(each)) paths.push_back(std::move(each));
     if (paths.size() == kMostNumbered) break;
   }
   std::sort(paths.begin(), paths.end());
   return paths;
+}
+
+}  // namespace
+
+std::vector<std::string> numbered_control_files(const std::string& path) {
+  return numbered_files(path, [](const std::string&) { return true; });
+}
+
+std::vector<std::string> numbered_control_paths(const std::string& path) {
+  return numbered_files(path, LocalDatagramSocket::is_served);
 }
 
 Result<std::unique_ptr<ProgramControl>> ProgramControl::open(const std::string& path,

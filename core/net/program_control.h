@@ -42,8 +42,12 @@ class ProgramControl {
 
 // Where the program of this kind hears that serves a guest on a bus, of this LCM URL.
 std::string control_path(std::string_view program, std::string_view bus_url, const GuestId& guest);
+// Path for a program that serves all guests of the bus.
+std::string control_path(std::string_view program, std::string_view bus_url);
 // Where several may, one by one: `path` with a number each.
 std::string numbered_control_path(const std::string& path, std::uint64_t number);
+// Their files, also those that killed programs left.
+std::vector<std::string> numbered_control_files(const std::string& path);
 // Of those that listen; removes what killed ones left.
 std::vector<std::string> numbered_control_paths(const std::string& path);
 

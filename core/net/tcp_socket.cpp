@@ -6,10 +6,12 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <utility>
+
+#include "core/base/text/errno_text.h"
+#include "core/net/system/bind_error.h"
 
 namespace dance {
 namespace {
@@ -20,13 +22,30 @@ bool tcp_wait_for(int fd, short what, Duration longest) {
 }
 
 tl::unexpected<Error> tcp_failure(const Address& to, int reason) {
-  std::array<char, 128> text{};
-  return fail(to.to_string() + ": " + strerror_r(reason, text.data(), text.size()));
+  return fail(to.to_string() + ": " + errno_text(reason));
 }
 
 bool is_passing(int reason) { return reason == EAGAIN || reason == EWOULDBLOCK || reason == EINTR; }
 
 }  // namespace
+
+Result<void> try_tcp_port(const Address& local) {
+  sockaddr_storage raw{};
+  const socklen_t size = local.to_sockaddr(local.family(), raw);
+  const bool is_ipv6 = local.family() == Address::Family::kIpv6;
+  const int fd = ::socket(is_ipv6 ? AF_INET6 : AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  if (fd < 0) return fail(bind_error(local, errno));
+  const int on = 1;
+  // Connections that have just ended must not keep the port from a server that restarts.
+  ::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  if (is_ipv6) ::setsockopt(fd, IPPROTO_IPV6, IPV6_V6ONLY, &on, sizeof on);
+  int error = 0;
+  if (::bind(fd, reinterpret_cast<const sockaddr*>(&raw), size) != 0 || ::listen(fd, 1) != 0)
+    error = errno;
+  ::close(fd);
+  if (error != 0) return fail(bind_error(local, error));
+  return {};
+}
 
 Result<TcpSocket> TcpSocket::begin(const Address& to) {
   sockaddr_storage raw{};

@@ -18,6 +18,10 @@
 
 namespace dance {
 
+// Whether a TCP server could use the address now: binds a socket to it for a moment. The error
+// names the cause and the cure.
+Result<void> try_tcp_port(const Address& local);
+
 class TcpSocket {
  public:
   // A connection in steps: begin(), wait_for_room() until it says true, finish().

@@ -13,17 +13,15 @@
 #include <vector>
 
 #include "core/base/assert.h"
+#include "core/base/text/errno_text.h"
+#include "core/net/datagram/datagram_control.h"
 #include "core/net/mono_clock.h"
+#include "core/net/system/bind_error.h"
 
 namespace dance {
 namespace {
 
 constexpr int kWantedBuffer_bytes = 4 << 20;  // the system's limit caps it
-
-std::string reason(int error) {
-  std::array<char, 128> text{};
-  return strerror_r(error, text.data(), text.size());
-}
 
 // SO_RCVBUFFORCE exceeds rmem_max where permitted; else as much as the system gives.
 void ask_for_big_buffers(int fd) {
@@ -34,24 +32,18 @@ void ask_for_big_buffers(int fd) {
     setsockopt(fd, SOL_SOCKET, SO_SNDBUF, &bytes, sizeof bytes);
 }
 
+// The kernel refuses such an address and one that a route prohibits with the same error. Only the
+// first becomes possible with SO_BROADCAST.
+bool is_broadcast(int fd, const sockaddr* to, socklen_t length) {
+  const int on = 1;
+  return setsockopt(fd, SOL_SOCKET, SO_BROADCAST, &on, sizeof on) == 0 &&
+         ::connect(fd, to, length) == 0;
+}
+
 std::int64_t realtime_ns() {
   timespec t{};
   clock_gettime(CLOCK_REALTIME, &t);
   return static_cast<std::int64_t>(t.tv_sec) * 1'000'000'000 + t.tv_nsec;
-}
-
-// The kernel stamps with the wall clock: only the age of the stamp is taken over, and only while it
-// is plausible (the wall clock may be set at any time).
-MonoTime receive_time(msghdr& header, std::int64_t wall_now_ns, MonoTime wall_read) {
-  for (cmsghdr* c = CMSG_FIRSTHDR(&header); c != nullptr; c = CMSG_NXTHDR(&header, c)) {
-    if (c->cmsg_level != SOL_SOCKET || c->cmsg_type != SCM_TIMESTAMPNS) continue;
-    timespec t{};
-    std::memcpy(&t, CMSG_DATA(c), sizeof t);
-    const std::int64_t age_ns =
-        wall_now_ns - (static_cast<std::int64_t>(t.tv_sec) * 1'000'000'000 + t.tv_nsec);
-    if (age_ns > 0 && age_ns < 100'000'000) return wall_read - Duration::ns(age_ns);
-  }
-  return wall_read;
 }
 
 }  // namespace
@@ -61,7 +53,7 @@ struct UdpSocket::Batches {
     std::span<std::uint8_t> bytes;
     sockaddr_storage address{};
     iovec vector{};
-    alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(timespec))> control;
+    alignas(cmsghdr) std::array<char, kControlBytes> control;
   };
   std::vector<std::uint8_t> memory;
   std::vector<Slot> in;
@@ -134,11 +126,15 @@ void UdpSocket::close_now() {
 Result<UdpSocket> UdpSocket::open(Address::Family family, bool connected, const UdpRoom& room) {
   const int domain = family == Address::Family::kIpv6 ? AF_INET6 : AF_INET;
   const int fd = ::socket(domain, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-  if (fd < 0) return fail("no UDP socket can be had: " + reason(errno));
+  if (fd < 0) return fail("no UDP socket can be had: " + errno_text(errno));
   UdpSocket socket(fd, family, connected, room);
   const int off = 0;
   const int on = 1;
   if (domain == AF_INET6) setsockopt(fd, IPPROTO_IPV6, IPV6_V6ONLY, &off, sizeof off);
+  // Routers split what their next link cannot carry whole, down to 576 bytes. By default they drop
+  // it and report that, and many networks drop the report too. IPv6 carries 1280 bytes everywhere.
+  const int may_be_split = IP_PMTUDISC_DONT;
+  setsockopt(fd, IPPROTO_IP, IP_MTU_DISCOVER, &may_be_split, sizeof may_be_split);
   setsockopt(fd, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
   ask_for_big_buffers(fd);
   return socket;
@@ -152,20 +148,22 @@ Result<UdpSocket> UdpSocket::bind(const Address& local, const UdpRoom& room) {
   return socket;
 }
 
+Result<UdpSocket> UdpSocket::serve(const Address& local, const UdpRoom& room) {
+  auto socket = bind(local, room);
+  if (!socket) return socket;
+  const int on = 1;
+  const bool is_ipv6 = local.family() == Address::Family::kIpv6;
+  if (setsockopt(socket->fd_, is_ipv6 ? IPPROTO_IPV6 : IPPROTO_IP,
+                 is_ipv6 ? IPV6_RECVPKTINFO : IP_PKTINFO, &on, sizeof on) != 0)
+    return fail("the system does not report where datagrams were sent to: " + errno_text(errno));
+  return socket;
+}
+
 Result<void> UdpSocket::bind_to(const Address& local) {
   sockaddr_storage raw{};
   const socklen_t length = local.to_sockaddr(local.family(), raw);
   if (::bind(fd_, reinterpret_cast<const sockaddr*>(&raw), length) == 0) return {};
-  if (errno == EADDRINUSE)
-    return fail("port " + std::to_string(local.port()) + " is taken (" + local.to_string() +
-                "): stop the program that has it, or choose another port");
-  if (errno == EADDRNOTAVAIL)
-    return fail(
-        "address " + local.to_string() +
-        " is not one of this machine's: bind to one that `ip address` lists, or to 0.0.0.0");
-  if (errno == EACCES)
-    return fail("port " + std::to_string(local.port()) + " is not allowed: choose one above 1023");
-  return fail("address " + local.to_string() + " cannot be bound: " + reason(errno));
+  return fail(bind_error(local, errno));
 }
 
 Result<UdpSocket> UdpSocket::join(const Address& group, const Address& interface,
@@ -185,7 +183,7 @@ Result<UdpSocket> UdpSocket::join(const Address& group, const Address& interface
     std::memcpy(&request.imr_interface, interface.ip().data(), sizeof request.imr_interface);
   if (setsockopt(socket->fd_, IPPROTO_IP, IP_ADD_MEMBERSHIP, &request, sizeof request) == 0)
     return socket;
-  const std::string cause = reason(errno);
+  const std::string cause = errno_text(errno);
   return fail("group " + group.to_string() + " cannot be joined" +
               (interface.is_set() ? " on the interface of " + interface.to_string() : "") + ": " +
               cause + "; name the address of an interface that `ip address` lists");
@@ -197,9 +195,14 @@ Result<UdpSocket> UdpSocket::connect(const Address& peer, const UdpRoom& room) {
   if (!socket) return socket;
   sockaddr_storage raw{};
   const socklen_t length = peer.to_sockaddr(peer.family(), raw);
-  if (::connect(socket->fd_, reinterpret_cast<const sockaddr*>(&raw), length) != 0)
-    return fail("no way to " + peer.to_string() + ": " + reason(errno) + "; check the network");
-  return socket;
+  const auto* to = reinterpret_cast<const sockaddr*>(&raw);
+  if (::connect(socket->fd_, to, length) == 0) return socket;
+  const int error = errno;
+  if (error == EACCES && is_broadcast(socket->fd_, to, length))
+    return fail(peer.to_string() +
+                " is a broadcast address, which stands for all hosts of a network: name the "
+                "address of one host");
+  return fail("no way to " + peer.to_string() + ": " + errno_text(error) + "; check the network");
 }
 
 Address UdpSocket::local_address() const {
@@ -219,8 +222,7 @@ std::span<const UdpSocket::Datagram> UdpSocket::receive() {
     return {};
   }
   // Both clocks are read here, as time has passed since the turn began.
-  const std::int64_t wall_now_ns = realtime_ns();
-  const MonoTime wall_read = mono_now();
+  const ClockReadings read{realtime_ns(), mono_now()};
   b.used_in = static_cast<std::size_t>(count);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
@@ -231,9 +233,10 @@ std::span<const UdpSocket::Datagram> UdpSocket::receive() {
       ++counters_.truncated;
       continue;
     }
-    b.received[kept++] = {Address::from_sockaddr(b.in[i].address),
-                          {b.in[i].bytes.data(), header.msg_len},
-                          receive_time(header.msg_hdr, wall_now_ns, wall_read)};
+    Datagram& datagram = b.received[kept++];
+    datagram = {
+        Address::from_sockaddr(b.in[i].address), {b.in[i].bytes.data(), header.msg_len}, read.mono};
+    read_control(header.msg_hdr, read, datagram.from, datagram.received);
   }
   return {b.received.data(), kept};
 }
@@ -255,6 +258,7 @@ void UdpSocket::send(const Address& to, std::span<const std::uint8_t> bytes) {
   header.msg_namelen = length;
   header.msg_iov = &slot.vector;
   header.msg_iovlen = 1;
+  if (!connected_) set_source(to, family_, slot.control.data(), header);
   if (++b.queued == b.out.size()) flush();
 }
 
@@ -281,16 +285,23 @@ void UdpSocket::flush() {
 void UdpSocket::send_now(const Address& to, std::span<const std::uint8_t> bytes) {
   sockaddr_storage raw{};
   const socklen_t length = connected_ ? 0 : to.to_sockaddr(family_, raw);
-  const auto* name = connected_ ? nullptr : reinterpret_cast<const sockaddr*>(&raw);
   if (!connected_ && length == 0) {
     ++counters_.send_failed;
     return;
   }
-  ssize_t sent = sendto(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT, name, length);
+  alignas(cmsghdr) std::array<char, kControlBytes> control{};
+  iovec vector{const_cast<std::uint8_t*>(bytes.data()), bytes.size()};
+  msghdr header{};
+  header.msg_name = connected_ ? nullptr : &raw;
+  header.msg_namelen = length;
+  header.msg_iov = &vector;
+  header.msg_iovlen = 1;
+  if (!connected_) set_source(to, family_, control.data(), header);
+  ssize_t sent = sendmsg(fd_, &header, MSG_DONTWAIT);
   // sendmsg() reported a pending ICMP error of an earlier datagram instead of sending: try again.
   if (sent < 0 && errno == ECONNREFUSED) {
     ++counters_.refused;
-    sent = sendto(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT, name, length);
+    sent = sendmsg(fd_, &header, MSG_DONTWAIT);
   }
   if (sent < 0) {
     count_send_error(errno);
@@ -302,6 +313,12 @@ void UdpSocket::send_now(const Address& to, std::span<const std::uint8_t> bytes)
 
 void UdpSocket::count_send_error(int error) {
   ++(error == ECONNREFUSED ? counters_.refused : counters_.send_failed);
+}
+
+bool machine_has_ipv6() {
+  const int fd = ::socket(AF_INET6, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  if (fd >= 0) ::close(fd);
+  return fd >= 0;
 }
 
 Result<std::uint16_t> free_loopback_port() {

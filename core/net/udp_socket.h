@@ -52,6 +52,10 @@ class UdpSocket final : public DatagramSink {
 
   // Receives and sends from `local`; port 0 lets the system choose.
   static Result<UdpSocket> bind(const Address& local, const UdpRoom& room = {});
+  // Like bind(), for a server. Datagram::from includes the address of this machine that the peer
+  // sent to, and what is sent to such a `from` leaves from there: on a machine with several
+  // addresses peers accept no other answer.
+  static Result<UdpSocket> serve(const Address& local, const UdpRoom& room = {});
   // Hears a multicast group of IPv4, as other programs of this machine may at the same time; on the
   // interface that has the address `interface`, or on the one of the system's choice.
   static Result<UdpSocket> join(const Address& group, const Address& interface,
@@ -92,6 +96,9 @@ class UdpSocket final : public DatagramSink {
   std::unique_ptr<Batches> batches_;
   Counters counters_;
 };
+
+// Whether the kernel supports IPv6 sockets.
+bool machine_has_ipv6();
 
 // A UDP port of 127.0.0.1 that is free at this moment.
 Result<std::uint16_t> free_loopback_port();

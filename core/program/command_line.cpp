@@ -1,6 +1,6 @@
 #include "core/program/command_line.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -8,8 +8,42 @@
 
 #include "core/base/guest_id.h"
 #include "core/base/plain_number.h"
+#include "core/base/text/guest_id_hint.h"
 
 namespace dance {
+
+namespace {
+
+// CLI11 names the option and the text in its messages; the cure is ours.
+std::string error_text(const CLI::ParseError& error) {
+  const std::string text = error.what();
+  const auto behind = [&](std::string_view separator) {
+    const std::size_t at = text.find(separator);
+    return at == text.npos ? text : text.substr(at + separator.size());
+  };
+  if (dynamic_cast<const CLI::ExtrasError*>(&error))
+    return fmt::format("it takes no '{}'", behind(": "));
+  if (dynamic_cast<const CLI::ConversionError*>(&error))
+    return fmt::format("{}: this is no number that fits", behind(": "));
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) && text.ends_with(" missing"))
+    return fmt::format("{} needs a value behind it", text.substr(0, text.find(':')));
+  return text;
+}
+
+CLI::Validator one_of_words(std::vector<std::string> words) {
+  const std::string list = fmt::format("{{{}}}", fmt::join(words, ","));
+  return CLI::Validator(
+      [words = std::move(words)](const std::string& text) -> std::string {
+        if (std::ranges::find(words, text) != words.end()) return "";
+        std::string known;
+        for (std::size_t i = 0; i < words.size(); ++i)
+          known += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+        return fmt::format("'{}' is not {}", text, known);
+      },
+      list);
+}
+
+}  // namespace
 
 Option& Option::range(double lowest, double highest) {
   const std::string span = plain_number(lowest) + " to " + plain_number(highest);
@@ -25,7 +59,7 @@ Option& Option::range(double lowest, double highest) {
 }
 
 Option& Option::one_of(std::vector<std::string> words) {
-  option_->check(CLI::IsMember(std::move(words)));
+  option_->check(one_of_words(std::move(words)));
   return *this;
 }
 
@@ -40,9 +74,8 @@ Option& Option::check(std::function<std::string(const std::string& text)> wrong)
 }
 
 Option& Option::guest_name() {
-  return check([](const std::string& name) {
-    return GuestId::parse(name) ? "" : "'" + name + "': " + kGuestIdRule;
-  });
+  return check(
+      [](const std::string& name) { return GuestId::parse(name) ? "" : guest_id_error(name); });
 }
 
 Option& Option::required() {
@@ -96,7 +129,7 @@ Option CommandLine::add_words(const std::string& name, std::vector<std::string> 
     chosen(static_cast<std::size_t>(std::find(words.begin(), words.end(), word) - words.begin()));
   };
   return Option(
-      app_->add_option_function<std::string>(name, choose, help)->check(CLI::IsMember(words)));
+      app_->add_option_function<std::string>(name, choose, help)->check(one_of_words(words)));
 }
 
 void CommandLine::footer(const std::string& text) { app_->footer(text); }
@@ -112,7 +145,7 @@ CommandLine::Parsed CommandLine::parse(int argc, char** argv) {
     text_ = app_->help();
     return Parsed::kHelp;
   } catch (const CLI::ParseError& error) {
-    text_ = error.what();
+    text_ = error_text(error);
     return Parsed::kWrong;
   }
   if (!look_) return Parsed::kRun;

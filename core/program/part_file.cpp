@@ -15,7 +15,6 @@ namespace dance {
 namespace {
 
 constexpr std::array kEnds{SIGINT, SIGTERM, SIGHUP};
-constexpr mode_t kUsualMode = 0666;  // less the umask
 
 // Of the part file that a signal removes.
 std::atomic<const char*> unfinished{nullptr};
@@ -62,8 +61,8 @@ tl::unexpected<Error> not_written(const std::string& path, int error) {
   return fail(path + ": " + std::generic_category().message(error) + "; choose another name");
 }
 
-// Like a rename, but over no file; 0 or the error.
-int move_to_free_name(const char* from, const char* to) {
+// 0 or the error.
+int move_file(const char* from, const char* to) {
   if (::renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_NOREPLACE) == 0) return 0;
   if (errno != EINVAL && errno != ENOSYS) return errno;
   // A file system without that, as NFS.
@@ -74,13 +73,19 @@ int move_to_free_name(const char* from, const char* to) {
 
 }  // namespace
 
+Result<void> move_to_free_name(const std::string& from, const std::string& to) {
+  const int error = move_file(from.c_str(), to.c_str());
+  if (error != 0) return error == EEXIST ? is_there(to) : not_written(to, error);
+  return {};
+}
+
 Result<std::unique_ptr<PartFile>> PartFile::create(const std::string& to) {
   std::error_code unknown;
   if (std::filesystem::exists(std::filesystem::symlink_status(to, unknown))) return is_there(to);
   std::unique_ptr<PartFile> part(new PartFile(to));
   part->is_kept_ = true;  // until there is one
   const SignalsHeld held;
-  const int file = ::open(part->path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kUsualMode);
+  const int file = ::open(part->path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (file < 0) return errno == EEXIST ? is_there(part->path_) : not_written(part->path_, errno);
   ::close(file);
   part->is_kept_ = false;
@@ -98,8 +103,7 @@ PartFile::~PartFile() {
 
 Result<void> PartFile::keep() {
   const SignalsHeld held;
-  const int error = move_to_free_name(path_.c_str(), to_.c_str());
-  if (error != 0) return error == EEXIST ? is_there(to_) : not_written(to_, error);
+  if (auto moved = move_to_free_name(path_, to_); !moved) return moved;
   is_kept_ = true;
   forget();
   return {};

@@ -15,6 +15,9 @@
 
 namespace dance {
 
+// Renames a file; an error where there is a file of the name `to`.
+Result<void> move_to_free_name(const std::string& from, const std::string& to);
+
 class PartFile {
  public:
   // Creates `to`.part, empty; an error where there is a file of either name.

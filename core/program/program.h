@@ -14,7 +14,9 @@
 
 namespace dance {
 
-// Parses the command line and runs `body`. A wrong option is one line on stderr and 2.
+// Parses the command line and runs `body`. A wrong option is one line on stderr and 2. Errors are
+// printed as plain text (core/base/text/plain_text.h). All files that the program and its children
+// create are for its user alone: files 0600, folders 0700. A file that exists keeps its mode.
 int run_program(CommandLine& line, int argc, char** argv,
                 const std::function<Result<void>()>& body);
 

@@ -6,10 +6,12 @@
 
 #include <cctype>
 
+#include "core/base/text/plain_text.h"
+
 namespace dance::talk {
 
 void line(Level level, fmt::string_view format, fmt::format_args args) {
-  const std::string text = fmt::vformat(format, args);
+  const std::string text = plain_text(fmt::vformat(format, args));
   switch (level) {
     case Level::kInfo:
       spdlog::info(text);

@@ -15,6 +15,8 @@
 namespace dance::talk {
 
 enum class Level { kInfo, kWarn, kError };
+// Control characters, and characters that change the direction of text, become '?': parts of a
+// message may come from files and from the network.
 void line(Level level, fmt::string_view format, fmt::format_args args);
 
 template <class... T>

@@ -68,7 +68,7 @@ class XzDecoder {
   XzDecoder(const XzDecoder&) = delete;
   XzDecoder& operator=(const XzDecoder&) = delete;
 
-  Result<std::string> decode(std::string_view packed, std::size_t most_bytes) {
+  Result<Unpacked> decode(std::string_view packed, std::size_t most_bytes) {
     if (!is_ready_) return fail("no memory to unpack it");
     std::string out;
     std::array<std::uint8_t, kBlock_bytes> block;
@@ -82,7 +82,8 @@ class XzDecoder {
       if (out.size() + count > most_bytes)
         return fail("unpacks to more than " + megabytes(most_bytes));
       out.append(reinterpret_cast<const char*>(block.data()), count);
-      if (result == LZMA_STREAM_END) return out;
+      if (result == LZMA_STREAM_END) return Unpacked{std::move(out), false};
+      if (result == LZMA_BUF_ERROR) return Unpacked{std::move(out), true};
       if (result != LZMA_OK) return fail(reason(result));
     }
   }
@@ -90,8 +91,6 @@ class XzDecoder {
  private:
   static const char* reason(lzma_ret result) {
     switch (result) {
-      case LZMA_BUF_ERROR:
-        return "the xz file is cut short; copy it again";
       case LZMA_FORMAT_ERROR:
         return "what follows is no xz file; copy it again";
       case LZMA_MEMLIMIT_ERROR:
@@ -194,9 +193,15 @@ Result<std::string> read_whole_file(const std::string& path, std::size_t most_by
 
 bool is_xz(std::string_view bytes) { return bytes.starts_with(kXzMagic); }
 
-Result<std::string> unpacked(std::string bytes, std::size_t most_bytes) {
-  if (!is_xz(bytes)) return bytes;
+Result<Unpacked> unpacked_part(std::string bytes, std::size_t most_bytes) {
+  if (!is_xz(bytes)) return Unpacked{std::move(bytes), false};
   return XzDecoder().decode(bytes, most_bytes);
+}
+
+Result<std::string> unpacked(std::string bytes, std::size_t most_bytes) {
+  DANCE_TRY(Unpacked part, unpacked_part(std::move(bytes), most_bytes));
+  if (part.is_cut) return fail(kXzIsCut);
+  return std::move(part.bytes);
 }
 
 }  // namespace dance

@@ -28,7 +28,15 @@ Result<void> write_whole_file(const std::string& path, std::span<const std::uint
 Result<std::string> read_whole_file(const std::string& path, std::size_t most_bytes);
 
 bool is_xz(std::string_view bytes);
+struct Unpacked {
+  std::string bytes;
+  bool is_cut = false;  // the packed file ends early: these are the bytes up to there
+};
+constexpr const char* kXzIsCut = "the xz file is cut short; copy it again";
+
 // Decompresses an xz file to at most `most_bytes`; other bytes are returned unchanged.
+Result<Unpacked> unpacked_part(std::string bytes, std::size_t most_bytes);
+// The same, where a part is an Error.
 Result<std::string> unpacked(std::string bytes, std::size_t most_bytes);
 
 }  // namespace dance

@@ -35,10 +35,13 @@ Result<std::unique_ptr<PulseInput>> PulseInput::open(PulseServer& server,
   if (pa_stream_connect_record(input->stream_, source.empty() ? nullptr : source.c_str(), &buffer,
                                PA_STREAM_ADJUST_LATENCY) < 0)
     return fail("the sound server refuses to record: " + server.error_text());
-  if (!server.becomes_ready(input->stream_, options.timeout))
-    return fail("the sound server has no microphone" +
-                (source.empty() ? std::string() : " '" + source + "'") + ": " +
-                server.error_text() + "; `pactl list short sources` names them");
+  const std::string named = source.empty() ? "" : " '" + source + "'";
+  if (auto ready = server.await_ready(
+          input->stream_,
+          "the sound server has no microphone" + named + " (`pactl list short sources` names them)",
+          options.timeout);
+      !ready)
+    return tl::make_unexpected(ready.error());
   return input;
 }
 

@@ -44,10 +44,13 @@ Result<std::unique_ptr<PulseOutput>> PulseOutput::open(PulseServer& server,
     ++static_cast<PulseOutput*>(self)->underflows_;
   };
   pa_stream_set_underflow_callback(stream, on_underflow, output.get());
-  if (!server.becomes_ready(stream, options.timeout))
-    return fail("the sound server has no loudspeaker" +
-                (options.sink.empty() ? std::string() : " '" + options.sink + "'") + ": " +
-                server.error_text() + "; `pactl list short sinks` names them");
+  const std::string named = options.sink.empty() ? "" : " '" + options.sink + "'";
+  if (auto ready = server.await_ready(
+          stream,
+          "the sound server has no loudspeaker" + named + " (`pactl list short sinks` names them)",
+          options.timeout);
+      !ready)
+    return tl::make_unexpected(ready.error());
   return output;
 }
 

@@ -7,7 +7,8 @@
 // Threads:      none: everything happens in iterate(), which is to be called some hundred times a
 //               second.
 // Failure:      connect() says why there is no server and what to do; is_alive() is false once the
-//               connection is lost.
+//               connection is lost. A server that hangs (it accepts the connection and does not
+//               answer) has an error of its own, with the command that restarts it.
 #pragma once
 
 #include <sys/time.h>
@@ -26,12 +27,17 @@ struct pa_stream;
 
 namespace dance {
 
+struct PulseFailure : Error {
+  bool is_silent = false;  // a server is there and does not answer
+};
+
 class PulseServer {
  public:
   static constexpr Duration kTimeout = Duration::s(3);
 
   // Waits for the server's answer, a few seconds at most.
-  static Result<std::unique_ptr<PulseServer>> connect(const std::string& program);
+  static tl::expected<std::unique_ptr<PulseServer>, PulseFailure> connect(
+      const std::string& program);
   ~PulseServer();
   PulseServer(const PulseServer&) = delete;
   PulseServer& operator=(const PulseServer&) = delete;
@@ -52,8 +58,10 @@ class PulseServer {
   }
   bool is_alive() const;
   std::string error_text() const;
-  // Waits for a stream that was connected; false where the server refuses it or is silent.
-  bool becomes_ready(pa_stream* stream, Duration timeout = kTimeout);
+  // Waits for a stream that was connected. The error is `refused` with the server's reason, or
+  // that the server does not answer.
+  Result<void> await_ready(pa_stream* stream, const std::string& refused,
+                           Duration timeout = kTimeout);
   // Waits for the answer to a query, whose callback sets `is_done`.
   Result<void> await_answer(pa_operation* query, const bool& is_done);
 

@@ -47,7 +47,7 @@ struct ReferenceBody {
   std::array<exact::Vec, kBoneCount> end{};          // of each bone: next joint, or tip
 };
 // A decoded body, computed exactly alike at both ends.
-struct BodyState : ReferenceBody {
+struct LatticeBodyState : ReferenceBody {
   std::array<exact::Quat, kBoneCount> global{};
   std::array<exact::Quat, kBoneCount> seat{};  // of each bone's swing and twist, in W
   std::array<exact::Vec, kBoneCount> joint{};
@@ -89,7 +89,8 @@ class BodyLattice {
   }
   // Of a seated bone with a rotation in W: the rotation from W's axes to those of its swing and
   // twist, and the product of the two.
-  exact::Quat from_room(std::size_t bone, const BodyState& state, const exact::Quat& R_WB) const {
+  exact::Quat from_room(std::size_t bone, const LatticeBodyState& state,
+                        const exact::Quat& R_WB) const {
     return exact::conj(bone == 0 ? R_WB * frames_[0].before : state.seat[bone]);
   }
   exact::Quat turn_of(std::size_t bone, const exact::Quat& from_room,
@@ -100,8 +101,8 @@ class BodyLattice {
 
   // Bone after bone, parents first: joint and seat, then, with its coordinates known, the rest;
   // returns its swing and twist.
-  void seat_bone(std::size_t bone, BodyState& state) const;
-  exact::Quat place_bone(std::size_t bone, BodyState& state) const;
+  void seat_bone(std::size_t bone, LatticeBodyState& state) const;
+  exact::Quat place_bone(std::size_t bone, LatticeBodyState& state) const;
   // A bone's rotation in its parent by swing and twist.
   [[gnu::always_inline]] exact::Quat local(std::size_t bone, const exact::Quat& turn) const {
     const exact::Quat q = frames_[bone].before * turn * frames_[bone].after;
@@ -138,7 +139,7 @@ constexpr std::size_t tip_of(std::size_t bone) {
 }
 
 [[gnu::always_inline]] inline void BodyLattice::seat_bone(std::size_t bone,
-                                                          BodyState& state) const {
+                                                          LatticeBodyState& state) const {
   if (bone == 0) {
     state.joint[0] = {state.x[0], state.x[1], state.x[2]};
     state.seat[0] = frames_[0].before;
@@ -152,7 +153,7 @@ constexpr std::size_t tip_of(std::size_t bone) {
 }
 
 [[gnu::always_inline]] inline exact::Quat BodyLattice::place_bone(std::size_t bone,
-                                                                  BodyState& state) const {
+                                                                  LatticeBodyState& state) const {
   const double* x = state.x.data() + first_coordinate(bone);
   const exact::Quat q = exact::to_quat({x[0], x[1], x[2]});
   if (bone == 0) {

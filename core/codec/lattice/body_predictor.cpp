@@ -98,7 +98,7 @@ struct BodyPredictor::Room {
 
 // Swing and twist as in core/codec/exact/swing_twist.h, of three references side by side.
 [[gnu::always_inline]] inline BodyPredictor::Room BodyPredictor::look_at_room(
-    std::size_t bone, const BodyState& body) const {
+    std::size_t bone, const LatticeBodyState& body) const {
   const exact::Vec d0 = was_[0]->end[bone] - body.joint[bone],
                    d1 = was_[1]->end[bone] - body.joint[bone],
                    d2 = was_[2]->end[bone] - body.joint[bone];
@@ -140,7 +140,7 @@ struct BodyPredictor::Room {
   return {steps(newest - in_parent), speed, speed - steps(before - oldest)};
 }
 
-void BodyPredictor::look_at(std::size_t c, const BodyState& body) {
+void BodyPredictor::look_at(std::size_t c, const LatticeBodyState& body) {
   if (is_intra()) return;
   const std::size_t bone = c < 3 ? 0 : (c - 3) / 3;
   residual_before_ = residual_before_that_ = 0.0f;
@@ -176,7 +176,7 @@ void BodyPredictor::look_at(std::size_t c, const BodyState& body) {
 }
 
 // Hips are as high as legs are long: their height counts from there.
-Spread BodyPredictor::intra(std::size_t c, const BodyState& body) {
+Spread BodyPredictor::intra(std::size_t c, const LatticeBodyState& body) {
   const IntraModel& trained = model_.intra[c];
   const double standing_m = lattice_.offset(0).y;
   double mean = static_cast<double>(trained.base) + (c == 1 ? standing_m : 0.0);

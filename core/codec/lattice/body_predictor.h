@@ -35,13 +35,13 @@ class BodyPredictor {
 
   // Call for each coordinate in order; `body` holds what is decoded before it, and the coordinate's
   // bone is seated.
-  Spread predict(std::size_t coordinate, const BodyState& body);
+  Spread predict(std::size_t coordinate, const LatticeBodyState& body);
   // The decoded coordinate.
   void decoded(std::size_t coordinate, double steps);
   // predict() in two parts: look_at() before the three coordinates of the place or of a bone, then
   // for each.
-  void look_at(std::size_t first, const BodyState& body);
-  Spread predict_axis(std::size_t first, std::size_t axis, const BodyState& body);
+  void look_at(std::size_t first, const LatticeBodyState& body);
+  Spread predict_axis(std::size_t first, std::size_t axis, const LatticeBodyState& body);
 
   // Of this frame so far: the surprise, and the log2 sizes of the last two residuals.
   struct Mood {
@@ -61,8 +61,8 @@ class BodyPredictor {
  private:
   void look_back();
   struct Room;
-  Room look_at_room(std::size_t bone, const BodyState& body) const;
-  Spread intra(std::size_t coordinate, const BodyState& body);
+  Room look_at_room(std::size_t bone, const LatticeBodyState& body) const;
+  Spread intra(std::size_t coordinate, const LatticeBodyState& body);
 
   const BodyLattice& lattice_;
   const LatticeSteps& steps_;
@@ -125,7 +125,7 @@ inline float weigh(const std::array<float, 12>& w, exact::Four a, exact::Four b,
 // Inline, so that state passed from one coordinate to the next stays in registers.
 [[gnu::always_inline]] inline Spread BodyPredictor::predict_axis(std::size_t first,
                                                                  std::size_t axis,
-                                                                 const BodyState& body) {
+                                                                 const LatticeBodyState& body) {
   const std::size_t c = first + axis;
   if (is_intra()) return intra(c, body);
   if (first < 6) {  // the place and the hips
@@ -146,7 +146,7 @@ inline float weigh(const std::array<float, 12>& w, exact::Four a, exact::Four b,
   return {detail::to_256(mean_), detail::class_of(log2_spread_)};
 }
 
-inline Spread BodyPredictor::predict(std::size_t c, const BodyState& body) {
+inline Spread BodyPredictor::predict(std::size_t c, const LatticeBodyState& body) {
   const std::size_t axis = c % 3;
   if (axis == 0) look_at(c, body);
   return predict_axis(c - axis, axis, body);

@@ -59,7 +59,8 @@ TrueBody true_body(const BodyLattice& lattice, const Pose& pose) {
   return body;
 }
 
-BodyError error_of(const BodyLattice& lattice, const TrueBody& truth, const BodyState& body) {
+BodyError error_of(const BodyLattice& lattice, const TrueBody& truth,
+                   const LatticeBodyState& body) {
   BodyError error;
   for (std::size_t b = 0; b < kBoneCount; ++b) {
     const double far = exact::length(body.joint[b] - truth.joint[b]);

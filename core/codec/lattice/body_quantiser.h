@@ -34,7 +34,7 @@ struct BodyError {
   double angle_rad = 0.0;  // of a bone in W
   double mean_joint_m = 0.0;
 };
-BodyError error_of(const BodyLattice& lattice, const TrueBody& truth, const BodyState& body);
+BodyError error_of(const BodyLattice& lattice, const TrueBody& truth, const LatticeBodyState& body);
 
 // Largest angular error of a bone.
 constexpr double kAngleCap_rad = 0.0698;
@@ -62,7 +62,7 @@ class BodyQuantiser {
                 const DistributionTable& table, const TrueBody& truth, const Still& still,
                 const ReferenceBody* base, const QuantiseOptions& options);
 
-  const BodyState& body() const { return body_; }
+  const LatticeBodyState& body() const { return body_; }
   std::span<const Choice> choices() const { return {choices_.data(), choice_count_}; }
   double bits() const { return bits_; }
 
@@ -96,7 +96,7 @@ class BodyQuantiser {
   QuantiseOptions options_;
   Still still_{};
   std::array<exact::Quat, kBoneCount> still_local_;  // of still bones
-  BodyState body_;
+  LatticeBodyState body_;
   std::array<Choice, kCoordinateCount> choices_;
   std::size_t choice_count_ = 0;
   std::array<Point, kBoneCount + kTipCount> points_{};

@@ -111,7 +111,7 @@ class LatticeDecoder final : public PoseDecoder {
   FrameRing& ring_ = *frames_;
   BodyLattice lattice_;
   std::uint8_t skeleton_tag_;
-  BodyState fresh_body_;  // until it is known to be whole
+  LatticeBodyState fresh_body_;  // until it is known to be whole
 };
 
 }  // namespace dance

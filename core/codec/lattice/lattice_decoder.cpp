@@ -36,7 +36,7 @@ DecodeResult LatticeDecoder::decode_body(RangeDecoder& in, const FrameHead& head
   BodyPredictor predictor(lattice_, *model_, head.level, head.is_slow, head.age, references);
   const DistributionTable& table = references.empty() ? model_->intra_table : model_->table;
   const LatticeSteps& steps = lattice_.steps(head.level);
-  BodyState& body = fresh_body_;
+  LatticeBodyState& body = fresh_body_;
   // Inline, so that state passed from one coordinate to the next stays in registers.
   const auto decode_axis = [&](std::size_t first, std::size_t axis) __attribute__((always_inline)) {
     const std::int32_t n =

@@ -1,0 +1,17 @@
+// The beginning of a text, at most so many bytes, which never ends within a UTF-8 character.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+namespace dance {
+
+constexpr std::string_view cut_text(std::string_view text, std::size_t most_bytes) {
+  if (text.size() <= most_bytes) return text;
+  std::size_t end = most_bytes;
+  for (std::size_t back = 0; back < 3 && end > 0; ++back, --end)
+    if ((static_cast<unsigned char>(text[end]) & 0xc0u) != 0x80u) return text.substr(0, end);
+  return text.substr(0, end);
+}
+
+}  // namespace dance
