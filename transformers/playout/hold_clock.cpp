@@ -55,7 +55,9 @@ void HoldClock::follow_target(MonoTime now) {
     has_delay_ = true;
   } else {
     const double rate = !window_ && now - begin_ < kFirst ? kFirstSlewRate : kSlewRate;
-    const Duration most = Duration::seconds((now - delay_set_).as_seconds() * rate);
+    // The bound of a clock that jumped back would be negative.
+    const Duration most =
+        std::max(Duration(), Duration::seconds((now - delay_set_).as_seconds() * rate));
     delay_ += std::clamp(error, -most, most);
   }
   delay_set_ = now;

@@ -48,7 +48,7 @@ class MotionSplit {
   float trust() const;
 
   std::array<Eigen::Quaternionf, kBoneCount> mean_turn_;
-  Eigen::Vector3f mean_sway_m_;
+  Eigen::Vector3f mean_sway_m_ = Eigen::Vector3f::Zero();
   HarmonicFit fit_;
   double bars_ = 0.0, bars_per_s_ = 0.0, seen_bars_ = 0.0;
   double seen_s_ = 0.0;
