@@ -173,7 +173,7 @@ Stats Manager::stats(MonoTime now) {
   stats.time = now;
   stats.clock_id = this_clock_id();
   stats.uptime = now - begin_;
-  stats.dropped_invalid = static_cast<std::int64_t>(port_.counters().invalid);
+  stats.dropped_invalid = static_cast<std::int64_t>(port_.counters().refused());
   stats.lateness_p99 = lateness_p99_;
   return stats;
 }

@@ -141,6 +141,7 @@ void Router::take(Where where, const GuestId& guest, const Pose& pose, MonoTime 
 }
 
 void Router::show(Instance& instance, Pose& pose, MonoTime now) {
+  spacing_.apply(instance.shown_as, pose, now, instance.of, holds_);
   holds_.show(instance.shown_as, pose, now, instance.flow.holds_hands(), instance.of);
   sink_.stage(instance.shown_as, pose, now);
 }

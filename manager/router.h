@@ -22,6 +22,7 @@
 #include "manager/route.h"
 #include "transformers/flow.h"
 #include "transformers/touch/stage_holds.h"
+#include "transformers/touch/stage_spacing.h"
 
 namespace dance {
 
@@ -142,6 +143,7 @@ class Router {
   void show(Instance& instance, Pose& pose, MonoTime now);
 
   StageHolds holds_;
+  StageSpacing spacing_;
   PartnerTracks partners_;  // the dancers of this house; flows refer to it
   std::vector<std::unique_ptr<RouteState>> routes_;
   std::array<std::vector<RouteState*>, 5> routes_from_;    // by Where

@@ -18,8 +18,8 @@ constexpr int kNice = 10;
 TrainingThread::TrainingThread() {
   try {
     thread_ = std::thread([this] { run(); });
-  } catch (const std::system_error& error) {
-    failure_ = std::string("no thread to learn in: ") + error.what();
+  } catch (const std::system_error&) {
+    failure_ = "no thread to learn in; end other programs, or raise the limit of `ulimit -u`";
   }
 }
 

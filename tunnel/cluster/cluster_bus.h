@@ -28,6 +28,8 @@ class ClusterBus {
     std::function<void(std::string_view key, MonoTime now)> on_all_read;
     // The connection is back: what others wrote meanwhile comes, what was written here stands.
     std::function<void(MonoTime now)> on_back;
+    // NATS restarted with an empty disk and lost all values. Values that peers write again arrive.
+    std::function<void(MonoTime now)> on_emptied;
   };
 
   virtual ~ClusterBus() = default;

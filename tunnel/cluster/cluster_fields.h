@@ -27,8 +27,8 @@ enum class Type : std::uint8_t {
   kVoice = 8,
   kRemoval = 9,
   kPresence = 16,
-  kGuest = 17,
-  kState = 18,
+  kState = 18,  // 17: guests without their keys, no longer in use
+  kGuest = 19,
 };
 
 // Captures lie within these, as in the wire format: nothing that is computed with them overflows.

@@ -104,6 +104,7 @@ struct GuestValue {
   std::uint64_t link_token = 0;
   std::int64_t since_us = 0;  // session clock, when its link came to that server
   CodecName codec;            // of the room
+  OwnerKey key;               // of the link
 };
 // and states of a guest, or of the room.
 struct StateValue {

@@ -38,6 +38,7 @@ ClusterNode::ClusterNode(const Options& options, ClusterBus& bus)
                      [this](std::string_view key, std::optional<cluster::Bytes> value,
                             MonoTime now) { on_value(key, value, now); },
                      [this](std::string_view key, MonoTime) { on_all_read(key); },
+                     [this](MonoTime now) { on_back(now); },
                      [this](MonoTime now) { on_back(now); }});
   bus_.listen(cluster::beat_subject().view());
   bus_.listen(cluster::server_subject(options_.id).view());
@@ -167,7 +168,7 @@ void ClusterNode::take_guest(Room& room, const cluster::Key& key, const cluster:
 bool ClusterNode::place(const wire::RoomName& name, const GuestId& guest,
                         const cluster::GuestValue& value, MonoTime now) {
   const bool is_placed = server_->remotes().set_guest(name, value.server, guest, value.link_token,
-                                                      clock().to_session(now));
+                                                      value.key, clock().to_session(now));
   const auto room = rooms_.find(name);
   if (room == rooms_.end()) return false;
   if (!is_placed) room->second.lacks_places = true;

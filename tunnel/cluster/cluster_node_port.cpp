@@ -47,6 +47,7 @@ void ClusterNode::on_guest_came(const ServerRoom& room, const ServerGuest& guest
   cluster::GuestValue value;
   value.server = options_.id;
   value.link_token = guest.link_token;
+  value.key = guest.key;
   value.since_us = clock().to_session(now_).since_zero_us();
   value.codec = room.codec;
   rooms_[room.name].guests.insert_or_assign(guest.id, value);

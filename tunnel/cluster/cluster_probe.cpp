@@ -20,6 +20,7 @@ ClusterProbe::ClusterProbe(ServerId id, ClusterBus& bus) : id_(id), bus_(bus) {
   handlers.on_value = [](std::string_view, std::optional<cluster::Bytes>, MonoTime) {};
   handlers.on_all_read = [](std::string_view, MonoTime) {};
   handlers.on_back = [](MonoTime) {};
+  handlers.on_emptied = [](MonoTime) {};
   bus_.set_handlers(std::move(handlers));
   bus_.listen(cluster::beat_subject().view());
   bus_.listen(cluster::server_subject(id_).view());

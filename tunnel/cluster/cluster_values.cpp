@@ -25,6 +25,8 @@ void write(const GuestValue& value, ByteWriter& out) {
   out.i64(value.since_us);
   out.u8(static_cast<std::uint8_t>(value.codec.id));
   out.u32(value.codec.model);
+  write_name(value.key.name, out);
+  out.u8(value.key.is_shared ? 1 : 0);
 }
 std::optional<Value> read_guest(ByteReader& in) {
   GuestValue value;
@@ -33,7 +35,10 @@ std::optional<Value> read_guest(ByteReader& in) {
   value.since_us = in.i64();
   value.codec.id = static_cast<CodecId>(in.u8());
   value.codec.model = in.u32();
-  if (!is_good || !is_near(value.since_us)) return std::nullopt;
+  if (!is_good || !is_near(value.since_us) || !read_name(in, value.key.name)) return std::nullopt;
+  const std::uint8_t is_shared = in.u8();
+  value.key.is_shared = is_shared == 1;
+  if (is_shared > 1) return std::nullopt;
   return value;
 }
 

@@ -17,22 +17,21 @@ constexpr int kRefusalsCount = 2;
 // A try at one of the server's addresses after the other, in a loop of its own.
 class BindingQuestion {
  public:
-  BindingQuestion(const Invitation& invitation, const PresharedKey& lasting,
+  // `key`: of the sessions, which `identity` names.
+  BindingQuestion(const Invitation& invitation, std::string identity, const PresharedKey& key,
                   std::vector<Address> addresses, Poller& poller)
-      : invitation_(invitation), addresses_(std::move(addresses)), poller_(poller) {
-    wish_[0] = seal::kBindingWish;
-    std::copy(lasting.bytes().begin(), lasting.bytes().end(), wish_.begin() + 1);
-  }
-  ~BindingQuestion() {
-    std::fill(wish_.begin(), wish_.end(), std::uint8_t{0});
-    end_socket();
-  }
+      : invitation_(invitation),
+        identity_(std::move(identity)),
+        key_(key),
+        addresses_(std::move(addresses)),
+        poller_(poller) {}
+  ~BindingQuestion() { end_socket(); }
   BindingQuestion(const BindingQuestion&) = delete;
   BindingQuestion& operator=(const BindingQuestion&) = delete;
 
   Result<Binding> run(Duration patience) {
     const MonoTime given_up = mono_now() + patience;
-    while (!answer_ && !no_trust_) {
+    while (!answer_ && !no_trust_ && !is_other_server_) {
       const MonoTime now = mono_now();
       if (now >= given_up) return fail(no_answer_line());
       if (needs_socket_) {
@@ -40,13 +39,17 @@ class BindingQuestion {
       }
       if (now >= client_->next_deadline()) client_->tick(now);
       if (is_sealed_ && now >= ask_at_) {
-        client_->send({}, wish_);
+        client_->send({}, kRequest);
         ask_at_ = now + kAskAgain;
       }
       socket_->flush();
       poller_.run_once(Duration::ms(20));
     }
     if (answer_) return *answer_;
+    if (is_other_server_)
+      return fail("the server " + invitation_.server() +
+                  " has another key than the invitation says: it is not the server that invited "
+                  "you, or its key has changed since; ask its keeper for another invitation");
     return fail("the server " + invitation_.server() +
                 " takes no keys, or speaks another version of DanceGraph: ask its keeper which");
   }
@@ -82,9 +85,7 @@ class BindingQuestion {
       else if (i + 1 == addresses_.size())
         return tl::make_unexpected(made.error());
     }
-    DANCE_TRY(auto context, SealContext::for_link(std::string(seal::kInvitedPrefix) +
-                                                      std::string(invitation_.guest.view()),
-                                                  invitation_.key));
+    DANCE_TRY(auto context, SealContext::for_link(identity_, key_, invitation_.server_key));
     client_ =
         std::make_unique<SealClient>(std::move(context), secure_random_u64, handlers(), *socket_);
     poller_.watch(socket_->fd(), [this](MonoTime now) {
@@ -123,15 +124,22 @@ class BindingQuestion {
         case SealTrouble::kNotTrusted:
           no_trust_ = true;
           break;
+        case SealTrouble::kServerKeyChanged:
+          is_other_server_ = true;
+          break;
       }
     };
     return handlers;
   }
 
+  static constexpr std::array<std::uint8_t, seal::kBindingRequestBytes> kRequest{
+      seal::kBindingRequest};
+
   const Invitation& invitation_;
+  std::string identity_;
+  PresharedKey key_;
   std::vector<Address> addresses_;
   Poller& poller_;
-  std::array<std::uint8_t, seal::kBindingWishBytes> wish_;
   std::unique_ptr<UdpSocket> socket_;
   std::unique_ptr<SealClient> client_;
   std::size_t next_ = 0;
@@ -139,6 +147,7 @@ class BindingQuestion {
   bool needs_socket_ = true;
   bool is_sealed_ = false;
   bool no_trust_ = false;
+  bool is_other_server_ = false;
   int refusals_ = 0;
   bool was_interrupted_ = false;
   std::optional<Binding> answer_;
@@ -146,11 +155,15 @@ class BindingQuestion {
 
 }  // namespace
 
-Result<Binding> ask_to_bind(const Invitation& invitation, const PresharedKey& lasting,
+Result<Binding> ask_to_bind(const Invitation& invitation, const PrivateKey& house,
                             Duration patience) {
+  const auto key = house_session_key(house, invitation.key, invitation.server_key);
+  if (!key) return fail("the invitation names no key that a server could have: ask for another");
   DANCE_TRY(auto addresses, Address::resolve_all(invitation.server()));
   DANCE_TRY(const auto poller, Poller::create());
-  BindingQuestion question(invitation, lasting, std::move(addresses), *poller);
+  const std::string name = std::string(seal::kInvitedPrefix) + std::string(invitation.guest.view());
+  BindingQuestion question(invitation, identity_text(name, house.public_key()), *key,
+                           std::move(addresses), *poller);
   return question.run(patience);
 }
 

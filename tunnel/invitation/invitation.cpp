@@ -6,13 +6,13 @@
 #include <cstdio>
 #include <map>
 
-#include "tunnel/seal/utc_text.h"
+#include "tunnel/seal/keys/utc_text.h"
 
 namespace dance {
 namespace {
 
 constexpr std::string_view kScheme = "dance://";
-constexpr std::string_view kVersion = "1";
+constexpr std::string_view kVersion = "2";
 constexpr std::size_t kMostText = 600;
 constexpr std::size_t kMostParameters = 16;
 constexpr std::size_t kMostHost = 253;
@@ -100,13 +100,15 @@ std::string unchecked_text(const Invitation& it) {
   if (it.room.is_set()) text += "/" + std::string(it.room.view());
   text += "?v=" + std::string(kVersion) + "&guest=" + std::string(it.guest.view());
   if (it.role != KeyKind::kGuest) text += "&role=" + std::string(key_kind_name(it.role));
-  return text + "&key=" + it.key.text() + "&until=" + utc_text(it.until_s);
+  return text + "&server=" + it.server_key.text() + "&key=" + it.key.text() +
+         "&until=" + utc_text(it.until_s);
 }
 
 using Parameters = std::map<std::string, std::string, std::less<>>;
 
 Result<Parameters> parameters_of(std::string_view query) {
-  constexpr std::array<std::string_view, 6> kKnown{"v", "guest", "role", "key", "until", "check"};
+  constexpr std::array<std::string_view, 7> kKnown{"v",   "guest", "role", "server",
+                                                   "key", "until", "check"};
   Parameters found;
   std::size_t count = 0;
   while (!query.empty()) {
@@ -135,14 +137,14 @@ std::string Invitation::server() const {
   return (is_ipv6(host) ? "[" + host + "]" : host) + ":" + std::to_string(port);
 }
 
-std::string Invitation::title() const { return house_key(PresharedKey()).title(); }
+std::string Invitation::title() const { return house_key().title(); }
 
-HouseKey Invitation::house_key(const PresharedKey& lasting) const {
+HouseKey Invitation::house_key() const {
   HouseKey made;
   made.name = guest;
   made.server = server();
   made.room = room;
-  made.key = lasting;
+  made.server_key = server_key;
   return made;
 }
 
@@ -198,7 +200,10 @@ Result<Invitation> parse_invitation(std::string_view text) {
       return wrong(std::string("names no role that could be") + kCopyAll);
     made.role = *role;
   }
-  const auto key = PresharedKey::parse(value("key"));
+  const auto server_key = PublicKey::parse(value("server"));
+  if (!server_key) return wrong(std::string("has no whole key of the server") + kCopyAll);
+  made.server_key = *server_key;
+  const auto key = PrivateKey::parse(value("key"));
   if (!key) return wrong(std::string("has no whole key") + kCopyAll);
   made.key = *key;
   const auto until_s = parse_utc(value("until"));

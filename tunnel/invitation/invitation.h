@@ -1,10 +1,10 @@
 // An invitation: all that a guest needs to come to a room for the first time, as one line that can
 // be sent, clicked or shown as a QR code:
-//   dance://dance.example.org/salsa?v=1&guest=alice&key=…&until=20261127T0800Z&check=1a2b3c4d
+//   dance://dance.example.org/salsa?v=2&guest=alice&server=…&key=…&until=20261127T0800Z&check=…
 // Port 7400 is left out, a room too where every room is open; role=host or role=listener where it
-// is no guest's. The key is good once: docs/server.md says what the first house makes of it. It
-// proves both ends to each other, server and guest, as only they and those who read the line know
-// it; nothing else has to vouch for the server.
+// is no guest's. `server` is the server's public key: no other server can open a session with the
+// house, not even one that knows the whole line. `key` is a private key of which the server keeps
+// the public half; it opens one session, which makes the house's own identity the guest's.
 //
 // Units/frames: seconds of UTC.
 // Ownership:    plain values.
@@ -19,8 +19,8 @@
 
 #include "core/base/guest_id.h"
 #include "core/base/result.h"
-#include "tunnel/seal/house_keys.h"
-#include "tunnel/seal/key_ring.h"
+#include "tunnel/seal/keys/house_keys.h"
+#include "tunnel/seal/keys/key_ring.h"
 
 namespace dance {
 
@@ -32,15 +32,16 @@ struct Invitation {
   GuestId room;  // not set: every room
   GuestId guest;
   KeyKind role = KeyKind::kGuest;  // not kRoom
-  PresharedKey key;
+  PublicKey server_key;
+  PrivateKey key;            // good once
   std::int64_t until_s = 0;  // in whole minutes
 
   // HOST:PORT.
   std::string server() const;
   // For people and logs, without the key: alice@dance.example.org:7400/salsa.
   std::string title() const;
-  // What is kept when `lasting` has taken the place of the invitation's key.
-  HouseKey house_key(const PresharedKey& lasting) const;
+  // The line that the house keeps once the server knows its identity.
+  HouseKey house_key() const;
   bool operator==(const Invitation&) const = default;
 };
 

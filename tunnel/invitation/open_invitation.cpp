@@ -1,8 +1,8 @@
 #include "tunnel/invitation/open_invitation.h"
 
 #include "tunnel/invitation/opened_invitations.h"
-#include "tunnel/seal/key_files.h"
-#include "tunnel/seal/utc_text.h"
+#include "tunnel/seal/keys/key_files.h"
+#include "tunnel/seal/keys/utc_text.h"
 
 namespace dance {
 namespace {
@@ -16,16 +16,24 @@ Result<HouseKeys> read_house_keys(const std::string& path) {
   return text ? HouseKeys::parse(*text, path) : HouseKeys();
 }
 
-bool has_title(const HouseKeys& keys, const std::string& title) {
+bool has_line(const HouseKeys& keys, const HouseKey& wanted) {
   for (const HouseKey& key : keys.keys())
-    if (key.title() == title) return true;
+    if (key.title() == wanted.title()) return key.server_key == wanted.server_key;
   return false;
 }
 
+std::string other_key_line(const HouseKey& known, const Invitation& invitation) {
+  return "the invitation names another key of " + invitation.server() +
+         " than the one that this house knows (" + known.server_key.text() +
+         "). If its keeper confirms that the server's key is now " + invitation.server_key.text() +
+         ", run: dance key --trust " + invitation.server() + "=" + invitation.server_key.text();
+}
+
 // `dance key` may be writing at the same time.
-Result<void> keep_key(const std::string& path, const HouseKey& key) {
+Result<void> keep_key(const std::string& path, const HouseKey& key, bool trusts_new_key) {
   DANCE_TRY(const FileLock lock, FileLock::of_folder(path));
   DANCE_TRY(HouseKeys keys, read_house_keys(path));
+  if (trusts_new_key) keys.trust(key.server, key.server_key);
   keys.put(key);
   return write_secret(path, keys.text());
 }
@@ -44,7 +52,7 @@ Result<Opened> open_invitation(const Invitation& invitation, const OpenInvitatio
     DANCE_TRY(folder, key_folder());
   }
   const std::string keys_path = folder + kKeysFile, opened_path = folder + kOpenedFile;
-  // Two that open the same link at once would make two keys, of which the server takes one.
+  // Only one program at a time may open an invitation.
   DANCE_TRY(const FileLock lock, FileLock::of_file(folder + kLockFile));
   OpenedInvitations opened;
   DANCE_TRY(const auto text, read_secret(opened_path));
@@ -53,20 +61,20 @@ Result<Opened> open_invitation(const Invitation& invitation, const OpenInvitatio
   }
   const std::string id = invitation.key.fingerprint();
   DANCE_TRY(const HouseKeys keys, read_house_keys(keys_path));
-  if (opened.is_done(id) && has_title(keys, invitation.title())) return Opened::kBefore;
-
-  HouseKey key = invitation.house_key(PresharedKey::make());
-  if (const auto pending = opened.pending(id)) {
-    key.key = pending->key;  // the server may have it already
-  } else if (how.now_s >= invitation.until_s) {
-    return fail(expired_line(invitation, how.now_s));
-  } else {
+  const HouseKey key = invitation.house_key();
+  if (opened.is_done(id) && has_line(keys, key)) return Opened::kBefore;
+  // A server whose key has changed may be another server: the user decides.
+  const HouseKey* const known = keys.find_other(invitation.server(), invitation.server_key);
+  if (known != nullptr && !how.trusts_new_key) return fail(other_key_line(*known, invitation));
+  DANCE_TRY(const PrivateKey house, house_identity(folder));
+  if (!opened.is_pending(id)) {  // otherwise the server may have accepted this house already
+    if (how.now_s >= invitation.until_s) return fail(expired_line(invitation, how.now_s));
     opened.begin(id, key);
     if (auto written = write_secret(opened_path, opened.text()); !written)
       return tl::make_unexpected(written.error());
   }
   const auto ask = how.ask ? how.ask : ask_to_bind;
-  DANCE_TRY(const Binding binding, ask(invitation, key.key, how.patience));
+  DANCE_TRY(const Binding binding, ask(invitation, house, how.patience));
   if (binding != Binding::kBound) {
     // A server that could not keep the key now may have kept it all the same. And that it does not
     // know the invitation is said before either side has proved who it is: by anybody on the way.
@@ -77,18 +85,39 @@ Result<Opened> open_invitation(const Invitation& invitation, const OpenInvitatio
     }
     return fail(binding_line(binding, invitation));
   }
-  // In this order: what ends between the two begins again above, with the same key.
-  if (auto kept = keep_key(keys_path, key); !kept) return tl::make_unexpected(kept.error());
+  // In this order: a program that ends between the two asks again.
+  if (auto kept = keep_key(keys_path, key, how.trusts_new_key); !kept)
+    return tl::make_unexpected(kept.error());
   opened.end(id, key);
   if (auto written = write_secret(opened_path, opened.text()); !written)
     return tl::make_unexpected(written.error());
   return Opened::kNow;
 }
 
-Result<Opened> open_invitation(const Invitation& invitation) {
+Result<Opened> open_invitation(const Invitation& invitation, bool trusts_new_key) {
   OpenInvitation how;
   how.now_s = utc_now_s();
+  how.trusts_new_key = trusts_new_key;
   return open_invitation(invitation, how);
+}
+
+Result<bool> names_other_server_key(const Invitation& invitation, std::string folder) {
+  if (folder.empty()) {
+    DANCE_TRY(folder, key_folder());
+  }
+  DANCE_TRY(const HouseKeys keys, read_house_keys(folder + kKeysFile));
+  return keys.find_other(invitation.server(), invitation.server_key) != nullptr;
+}
+
+Result<bool> was_opened_before(const Invitation& invitation, std::string folder) {
+  if (folder.empty()) {
+    DANCE_TRY(folder, key_folder());
+  }
+  DANCE_TRY(const auto text, read_secret(folder + kOpenedFile));
+  if (!text) return false;
+  DANCE_TRY(const auto opened, OpenedInvitations::parse(*text, folder + kOpenedFile));
+  DANCE_TRY(const HouseKeys keys, read_house_keys(folder + kKeysFile));
+  return opened.is_done(invitation.key.fingerprint()) && has_line(keys, invitation.house_key());
 }
 
 std::string binding_line(Binding binding, const Invitation& invitation) {

@@ -12,13 +12,13 @@ constexpr std::string_view kDoneWord = "opened";
 constexpr std::size_t kMostTitle = 400;
 
 bool is_fingerprint(std::string_view text) {
-  return text.size() == PresharedKey::kFingerprintLength &&
+  return text.size() == PrivateKey::kFingerprintLength &&
          text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
 // A title is what a key's line has before the key.
 std::string any_line_of(std::string_view title) {
-  return "dance-key:" + std::string(title) + "#" + PresharedKey().text();
+  return "dance-key:" + std::string(title) + "#A" + std::string(PublicKey::kTextLength - 1, 'g');
 }
 
 }  // namespace
@@ -44,31 +44,20 @@ Result<OpenedInvitations> OpenedInvitations::parse(std::string_view text, const 
                   "house is not let in");
     };
     if (!is_fingerprint(row.invitation) || line.empty() || line.size() > kMostTitle) return bad();
-    if (word == kPendingWord) {
-      const auto key = HouseKey::parse(line);
-      if (!key) return bad();
-      row.pending = *key;
-      row.title = key->title();
-    } else if (word == kDoneWord) {
-      const auto titled = HouseKey::parse(any_line_of(line));
-      if (!titled || titled->title() != line) return bad();
-      row.title = line;
-    } else {
-      return bad();
-    }
+    row.is_pending = word == kPendingWord;
+    const auto titled = HouseKey::parse(any_line_of(line));
+    if ((!row.is_pending && word != kDoneWord) || !titled || titled->title() != line) return bad();
+    row.title = line;
     made.put(std::move(row));
   }
   return made;
 }
 
 std::string OpenedInvitations::text() const {
-  std::string text =
-      "# Invitations that were opened here. Anyone who reads this may enter in your name.\n";
+  std::string text = "# Invitations that were opened here.\n";
   for (const Row& row : rows_)
-    text += row.invitation + " " +
-            (row.pending ? std::string(kPendingWord) + " " + row.pending->line()
-                         : std::string(kDoneWord) + " " + row.title) +
-            "\n";
+    text += row.invitation + " " + std::string(row.is_pending ? kPendingWord : kDoneWord) + " " +
+            row.title + "\n";
   return text;
 }
 
@@ -78,14 +67,14 @@ const OpenedInvitations::Row* OpenedInvitations::find(std::string_view invitatio
   return found == rows_.end() ? nullptr : &*found;
 }
 
-std::optional<HouseKey> OpenedInvitations::pending(std::string_view invitation) const {
+bool OpenedInvitations::is_pending(std::string_view invitation) const {
   const Row* row = find(invitation);
-  return row != nullptr ? row->pending : std::nullopt;
+  return row != nullptr && row->is_pending;
 }
 
 bool OpenedInvitations::is_done(std::string_view invitation) const {
   const Row* row = find(invitation);
-  return row != nullptr && !row->pending;
+  return row != nullptr && !row->is_pending;
 }
 
 void OpenedInvitations::put(Row row) {
@@ -95,11 +84,11 @@ void OpenedInvitations::put(Row row) {
 }
 
 void OpenedInvitations::begin(const std::string& invitation, const HouseKey& key) {
-  put({invitation, key.title(), key});
+  put({invitation, key.title(), true});
 }
 
 void OpenedInvitations::end(const std::string& invitation, const HouseKey& key) {
-  put({invitation, key.title(), std::nullopt});
+  put({invitation, key.title(), false});
 }
 
 void OpenedInvitations::forget(std::string_view invitation) {

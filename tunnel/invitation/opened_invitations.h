@@ -1,6 +1,6 @@
-// The invitations that this house has opened, in a file beside its keys: while one is being opened
-// the key that the house has made for itself, so that a house that ends half way comes in with that
-// key and no other; and of each that was opened under which title its key is kept.
+// The invitations that this house has opened, in a file beside its keys: of each the fingerprint of
+// its key, whether the server has accepted this house, and the title of the server's line among the
+// keys.
 //
 // Units/frames: none.
 // Ownership:    plain values.
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "tunnel/seal/house_keys.h"
+#include "tunnel/seal/keys/house_keys.h"
 
 namespace dance {
 
@@ -27,8 +27,9 @@ class OpenedInvitations {
   static Result<OpenedInvitations> parse(std::string_view text, const std::string& name);
   std::string text() const;
 
-  // `invitation` is the fingerprint of its key.
-  std::optional<HouseKey> pending(std::string_view invitation) const;
+  // `invitation` is the fingerprint of its key. Pending: the server may have accepted this house,
+  // and its answer has not arrived.
+  bool is_pending(std::string_view invitation) const;
   bool is_done(std::string_view invitation) const;
   void begin(const std::string& invitation, const HouseKey& key);
   void end(const std::string& invitation, const HouseKey& key);
@@ -38,7 +39,7 @@ class OpenedInvitations {
   struct Row {
     std::string invitation;
     std::string title;
-    std::optional<HouseKey> pending;
+    bool is_pending = false;
   };
   const Row* find(std::string_view invitation) const;
   void put(Row row);

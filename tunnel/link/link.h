@@ -15,8 +15,10 @@
 #include "core/base/result.h"
 #include "core/bus/messages.h"
 #include "core/net/address_watch.h"
+#include "core/net/names/name_lookup.h"
 #include "core/net/poller.h"
 #include "core/net/udp_socket.h"
+#include "tunnel/link/failover/server_candidates.h"
 #include "tunnel/link/failover/server_choice.h"
 #include "tunnel/link/failover/server_probe.h"
 #include "tunnel/link/link_core.h"
@@ -29,7 +31,8 @@ class Link {
  public:
   // Token, clock and seed of the options are filled in where they are 0.
   // Addresses of one server: until one has answered they are tried in turn. Where it is one of a
-  // cluster the link goes to the nearest, and to another when that one ends.
+  // cluster the link goes to the nearest, and to another when that one ends. Without an address the
+  // link waits until options.look_up has found one.
   static Result<std::unique_ptr<Link>> open(std::vector<Address> server, const LinkKey& key,
                                             LinkOptions options, LinkHandlers handlers,
                                             Poller& poller);
@@ -66,8 +69,8 @@ class Link {
   }
   void set_hearing(const Hearing& hearing, MonoTime now) { core_.set_hearing(hearing, now); }
 
-  // The server that is spoken to.
-  const Address& server() const { return server_[tried_]; }
+  // The address of the server that the link uses; not set while its name is unknown.
+  Address server() const { return server_.empty() ? Address() : server_[tried_]; }
   bool is_connected() const { return core_.is_connected(); }
   LinkState state() const { return core_.state(); }
   const LinkCounters& counters() const { return core_.counters(); }
@@ -77,7 +80,8 @@ class Link {
   std::vector<LocalGuestStats> local_stats() const { return core_.local_stats(); }
   const PathStats& path() const { return core_.path(); }
   std::optional<Music> room_music(MonoTime now) const { return core_.room_music(now); }
-  const GuestId& room_music_setter() const { return core_.room_music_setter(); }
+  std::optional<RoomSong> room_song(MonoTime now) const { return core_.room_song(now); }
+  const GuestId& room_setter(wire::StateKind kind) const { return core_.room_setter(kind); }
   // Since the link began.
   Duration uptime() const;
   // As STATS/link says it.
@@ -97,7 +101,8 @@ class Link {
   };
 
   Link(std::vector<Address> server, UdpSocket socket, std::unique_ptr<SealContext> context,
-       const LinkOptions& options, LinkHandlers handlers, Poller& poller);
+       std::unique_ptr<NameLookup> lookup, const LinkOptions& options, LinkHandlers handlers,
+       Poller& poller);
   SealClient::Handlers seal_handlers();
   void on_trouble(SealTrouble trouble, MonoTime now);
   MonoTime tick(MonoTime now);
@@ -108,16 +113,29 @@ class Link {
   void try_another_socket();
   void on_addresses_changed(MonoTime now);
   bool use_socket_to(std::size_t which);
+  // Resolves the server's name again, unless that was done a moment ago.
+  void look_up_server(MonoTime now);
+  void on_looked_up(MonoTime now);
+  void use_addresses(std::vector<Address> addresses, MonoTime now);
+  bool has_server_answered() const { return seal_.counters().sessions > sessions_elsewhere_; }
   void on_servers(const wire::ServerList& servers, MonoTime now);
   void choose_server(MonoTime now);
+  bool have_answered(const std::vector<Address>& servers) const;
+  // Measures the distances of all servers when each may be probed again.
+  void plan_probe(MonoTime now);
+  void probe_servers(MonoTime now);
+  void on_probed(MonoTime now);
   void move_to(const Address& server, MonoTime now);
   static LinkHandlers with_servers(LinkHandlers handlers, Link& link);
 
   Poller& poller_;
   std::vector<Address> server_;
   std::size_t tried_ = 0;  // which of them the socket speaks to
+  ServerCandidates candidates_;
   ServerChoice choice_;
   ServerProbe probe_;
+  MonoTime probe_due_;    // not set: no probe is planned
+  int probe_rounds_ = 0;  // since the last plan_probe()
   std::function<void(const Address&)> on_other_server_;
   std::function<void(const Address&)> on_no_answer_;
   std::function<void(SealTrouble)> on_no_entry_;
@@ -126,6 +144,11 @@ class Link {
   std::uint64_t clock_id_;
   MonoTime begin_;
   std::unique_ptr<AddressWatch> addresses_;  // nullptr where the kernel does not tell
+  std::unique_ptr<NameLookup> lookup_;       // nullptr: the server has no name
+  MonoTime next_lookup_;                     // not before then
+  std::function<void(const Address&)> on_new_address_;
+  std::function<void(const std::string&)> on_unknown_name_;
+  std::uint64_t sessions_elsewhere_ = 0;  // begun before the name had other addresses
   UdpSocket socket_;
   DirectSink sink_;
   SealClient seal_;

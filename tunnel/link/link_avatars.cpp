@@ -1,7 +1,6 @@
 #include "tunnel/link/link_avatars.h"
 
 #include <pthread.h>
-#include <sys/eventfd.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -27,11 +26,9 @@ bool is_vrm(const AvatarFile& file) { return file.name.view().ends_with(".vrm");
 
 }  // namespace
 
-LinkAvatars::LinkAvatars(AvatarStore store, Poller& poller, Tell tell)
-    : store_(std::move(store)), poller_(poller), tell_(std::move(tell)) {
-  wake_fd_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
-  DANCE_ASSERT(wake_fd_ >= 0);
-  poller_.watch(wake_fd_, [this](MonoTime) { take_answers(); });
+LinkAvatars::LinkAvatars(AvatarStore store, WakeEvent wake, Poller& poller, Tell tell)
+    : store_(std::move(store)), poller_(poller), tell_(std::move(tell)), wake_(std::move(wake)) {
+  poller_.watch(wake_.fd(), [this](MonoTime) { take_answers(); });
   thread_ = std::thread([this] { run(); });
 }
 
@@ -42,8 +39,7 @@ LinkAvatars::~LinkAvatars() {
   }
   wakes_.notify_all();
   thread_.join();
-  poller_.unwatch(wake_fd_);
-  close(wake_fd_);
+  poller_.unwatch(wake_.fd());
 }
 
 void LinkAvatars::run() {
@@ -131,13 +127,11 @@ void LinkAvatars::in_poller(Work work) {
     const std::lock_guard lock(mutex_);
     answers_.push_back(std::move(work));
   }
-  const std::uint64_t one = 1;
-  [[maybe_unused]] const auto written = write(wake_fd_, &one, sizeof(one));
+  wake_.signal();
 }
 
 void LinkAvatars::take_answers() {
-  std::uint64_t times = 0;
-  [[maybe_unused]] const auto taken = read(wake_fd_, &times, sizeof(times));
+  wake_.clear();
   std::deque<Work> answers;
   {
     const std::lock_guard lock(mutex_);

@@ -22,6 +22,7 @@
 #include <tuple>
 
 #include "core/net/poller.h"
+#include "core/net/system/wake_event.h"
 #include "core/store/avatar_store.h"
 #include "tunnel/link/link.h"
 
@@ -32,7 +33,7 @@ class LinkAvatars {
   using Tell = std::function<void(const std::string& line)>;
 
   // `tell` hears what a user should know; it may be empty.
-  LinkAvatars(AvatarStore store, Poller& poller, Tell tell);
+  LinkAvatars(AvatarStore store, WakeEvent wake, Poller& poller, Tell tell);
   ~LinkAvatars();
   LinkAvatars(const LinkAvatars&) = delete;
   LinkAvatars& operator=(const LinkAvatars&) = delete;
@@ -93,7 +94,7 @@ class LinkAvatars {
   std::map<GuestId, Own> own_;
   std::map<GuestId, AvatarFile> heard_;
   std::deque<Told> told_;  // the newest
-  int wake_fd_ = -1;
+  WakeEvent wake_;
 
   mutable std::mutex mutex_;
   std::condition_variable wakes_, is_idle_;

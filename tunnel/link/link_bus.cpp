@@ -3,14 +3,47 @@
 #include "core/base/assert.h"
 #include "core/codec/face_codec.h"
 #include "core/net/mono_clock.h"
+#include "tunnel/session/profile_bytes.h"
 
 namespace dance {
 namespace {
 
-constexpr Duration kWishHolds = Duration::s(2);
 constexpr std::string_view kFaceChannels = "FACES/*";
 constexpr std::string_view kFacePrefix = "FACES/";
 constexpr double kMostFaces_hz = 120.0;
+constexpr std::string_view kSpeechChannels = "SPEECH/*";
+constexpr std::string_view kSpeechPrefix = "SPEECH/";
+constexpr double kMostVoiceSigns_hz = 5.0;
+constexpr std::string_view kProfileChannels = "NAMES/*";
+constexpr double kMostProfiles_hz = 2.0;
+
+bool is_own_channel(std::string_view pattern) {
+  return pattern == kFaceChannels || pattern == kSpeechChannels || pattern == kProfileChannels;
+}
+
+bool is_own_name(std::string_view name) {
+  return name.starts_with(kFacePrefix) || name.starts_with(kSpeechPrefix) ||
+         name.starts_with(kProfilePrefix);
+}
+
+// The name of an own channel of a guest, as "FACES/alice".
+class OwnName {
+  static_assert(kFacePrefix.size() + kMaxGuestIdLength <= kMaxForeignName);
+  static_assert(kSpeechPrefix.size() + kMaxGuestIdLength <= kMaxForeignName);
+  static_assert(kProfilePrefix.size() + kMaxGuestIdLength <= kMaxForeignName);
+
+ public:
+  OwnName(std::string_view prefix, const GuestId& guest) {
+    const std::string_view id = guest.view();
+    const auto end = std::copy(prefix.begin(), prefix.end(), name_.begin());
+    length_ = static_cast<std::size_t>(std::copy(id.begin(), id.end(), end) - name_.begin());
+  }
+  std::string_view view() const { return {name_.data(), length_}; }
+
+ private:
+  std::array<char, kMaxForeignName> name_;
+  std::size_t length_ = 0;
+};
 
 }  // namespace
 
@@ -49,42 +82,115 @@ LinkHandlers LinkBus::handlers() {
   if (avatars_ != nullptr) avatars_->add_to(handlers);
   handlers.on_style = keeper<Style>();
   handlers.on_placement = keeper<Placement>();
+  handlers.on_chat = publisher<Chat>(Where::kGuest);
   handlers.on_music = publisher<Music>(Where::kRoom);
+  handlers.on_song = publisher<RoomSong>(Where::kRoom);
   handlers.on_scene = [this](const GuestId& setter, const Scene& scene, MonoTime) {
     scene_.emplace(setter, scene);
     port_.publish(Where::kRoom, setter, scene);
   };
   handlers.on_channel = [this](const GuestId& guest, std::string_view name, ChannelClass kind,
                                wire::Bytes message, MonoTime now) {
-    if (name.starts_with(kFacePrefix) && kind == ChannelClass::kNewest)
+    const auto is_own = [&](std::string_view prefix, ChannelClass of_kind) {
+      return kind == of_kind && name == OwnName(prefix, guest).view();
+    };
+    if (is_own(kFacePrefix, ChannelClass::kNewest))
       on_face(guest, message, now);
-    else
+    else if (is_own(kSpeechPrefix, ChannelClass::kState))
+      on_voice_sign(guest, message, now);
+    else if (is_own(kProfilePrefix, ChannelClass::kState))
+      on_profile(guest, message, now);
+    else if (!is_own_name(name))  // one of another guest's, or of another class, is dropped
       on_channel(guest, name, kind, message);
   };
   return handlers;
 }
 
-void LinkBus::add_face_rule(std::vector<ChannelRule>& rules) {
-  ChannelRule rule;
-  const auto pattern = ChannelPattern::parse(kFaceChannels);
-  DANCE_ASSERT(pattern.has_value());
-  rule.pattern = *pattern;
-  rule.kind = ChannelClass::kNewest;
-  rule.max_bytes = kMaxFacePayload;
-  rule.layout = *LayoutCheck::parse("any");
-  rule.rate_hz = kMostFaces_hz;
-  rules.insert(rules.begin(), rule);
+void LinkBus::add_own_rules(std::vector<ChannelRule>& rules) {
+  const auto add = [&](std::string_view name, ChannelClass kind, std::size_t most, double rate_hz) {
+    ChannelRule rule;
+    const auto pattern = ChannelPattern::parse(name);
+    DANCE_ASSERT(pattern.has_value());
+    rule.pattern = *pattern;
+    rule.kind = kind;
+    rule.max_bytes = most;
+    rule.layout = *LayoutCheck::parse("any");
+    rule.rate_hz = rate_hz;
+    rules.insert(rules.begin(), rule);
+  };
+  add(kSpeechChannels, ChannelClass::kState, 1, kMostVoiceSigns_hz);
+  add(kProfileChannels, ChannelClass::kState, kMaxProfileBytes, kMostProfiles_hz);
+  add(kFaceChannels, ChannelClass::kNewest, kMaxFacePayload, kMostFaces_hz);
 }
 
 void LinkBus::send_face(const GuestId& guest, const Face& face, MonoTime now) {
   std::array<std::uint8_t, kMaxFacePayload> payload;
   const std::size_t size = encode_face(face, payload);
   if (size == 0) return;
-  std::array<char, kMaxForeignName> name;
-  const auto end = std::copy(kFacePrefix.begin(), kFacePrefix.end(), name.begin());
-  const std::string_view id = guest.view();
-  const auto length = static_cast<std::size_t>(std::copy(id.begin(), id.end(), end) - name.begin());
-  link_->send_channel({name.data(), length}, {payload.data(), size}, now, guest);
+  const OwnName name(kFacePrefix, guest);
+  link_->send_channel(name.view(), {payload.data(), size}, now, guest);
+}
+
+// A house that plays no voices learns only from this byte who is talking.
+void LinkBus::send_voice_signs_of(const GuestId& guest) {
+  const auto send = [this](const GuestId& of, std::optional<std::uint8_t> sign, MonoTime now) {
+    if (sign) send_voice_sign(of, *sign, now);
+  };
+  port_.subscribe<VoiceState>(
+      {Where::kCapture, guest},
+      [this, send](const Channel& channel, const VoiceState& state, MonoTime now) {
+        send(channel.guest(), voice_signs_.on_state(channel.guest(), state, now), now);
+      });
+  port_.subscribe<Voice>({Where::kCapture, guest}, [this, send](const Channel& channel,
+                                                                const Voice& voice, MonoTime now) {
+    send(channel.guest(), voice_signs_.on_voice(channel.guest(), voice, now), now);
+  });
+}
+
+void LinkBus::send_voice_sign(const GuestId& guest, std::uint8_t sign, MonoTime now) {
+  const OwnName name(kSpeechPrefix, guest);
+  link_->send_channel(name.view(), {&sign, 1}, now, guest);
+}
+
+void LinkBus::on_voice_sign(const GuestId& guest, wire::Bytes message, MonoTime now) {
+  auto state = message.size() == 1 ? VoiceSigns::parse(message[0]) : std::nullopt;
+  if (!state) return;
+  state->time = now;
+  state->clock_id = clock_id_;
+  std::get<std::optional<VoiceState>>(known_[guest].states) = *state;
+  port_.publish(Where::kGuest, guest, *state);
+}
+
+void LinkBus::keep_own_profile(const GuestId& guest, const Profile& profile, MonoTime now) {
+  if (own_profiles_.size() >= wire::kMaxGuestsPerLink && !own_profiles_.contains(guest)) return;
+  own_profiles_[guest] = profile;
+  send_profile(guest, profile, now);
+}
+
+// The link sends changes only.
+void LinkBus::send_profile(const GuestId& guest, Profile profile, MonoTime now) {
+  profile.is_host = link_->core().may_remove();
+  ProfileBytes bytes;
+  const std::size_t size = write_profile(profile, bytes);
+  const OwnName name(kProfilePrefix, guest);
+  link_->send_channel(name.view(), {bytes.data(), size}, now, guest);
+}
+
+// The server grants the host's right only after the session has begun, so it is checked again each
+// second. A host without a profile gets one that holds the host sign alone.
+void LinkBus::send_profiles(MonoTime now) {
+  if (link_->core().may_remove())
+    for (const LocalGuestStats& own : link_->local_stats()) own_profiles_[own.guest];
+  for (const auto& [guest, profile] : own_profiles_) send_profile(guest, profile, now);
+}
+
+void LinkBus::on_profile(const GuestId& guest, wire::Bytes message, MonoTime now) {
+  auto profile = parse_profile(message);
+  if (!profile) return;
+  profile->time = now;
+  profile->clock_id = clock_id_;
+  std::get<std::optional<Profile>>(known_[guest].states) = *profile;
+  port_.publish(Where::kGuest, guest, *profile);
 }
 
 // Its time is that of its arrival: a face is shown as it comes.
@@ -137,13 +243,18 @@ void LinkBus::send_signals_of(const GuestId& guest) {
                         [this](const Channel& channel, const Face& face, MonoTime now) {
                           send_face(channel.guest(), face, now);
                         });
-  send_each<Hands, Voice, Music, Scene, Avatar, Style, Placement>(guest);
+  port_.subscribe<Profile>({Where::kCapture, guest},
+                           [this](const Channel& channel, const Profile& profile, MonoTime now) {
+                             keep_own_profile(channel.guest(), profile, now);
+                           });
+  send_voice_signs_of(guest);
+  send_each<Hands, Voice, Music, RoomSong, Scene, Avatar, Style, Placement, Chat>(guest);
 }
 
 void LinkBus::send_channels(const std::vector<ChannelRule>& rules) {
   rules_ = rules;
   for (const ChannelRule& rule : rules_) {
-    if (!rule.is_out || rule.pattern.text() == kFaceChannels) continue;
+    if (!rule.is_out || is_own_channel(rule.pattern.text())) continue;
     // Longer ones too, a little: the link counts them.
     bus_.on_raw(rule.pattern, Delivery::kNewest, 2 * kMaxChannelNewestBytes,
                 [this, rule = &rule](std::string_view name, const void* data, std::size_t size,
@@ -164,18 +275,11 @@ void LinkBus::follow_hearing(const Hearing& own) {
                                });
 }
 
-// What a recording plays hides nobody. A window on another machine has another clock, as a
-// recording may have: it hides nobody either, and whom it may show goes on coming.
 void LinkBus::follow_interest(const Interest& own) {
   own_interest_ = own;
   port_.subscribe<InterestWish>(Where::kLocal,
                                 [this](const Channel&, const InterestWish& wish, MonoTime now) {
-                                  if (wish.clock_id != clock_id_)
-                                    hidden_.hear({wish.time, wish.clock_id, wish.viewer, {}}, now);
-                                  else if (is_of_now(wish.clock_id, wish.time, now))
-                                    hidden_.hear(wish, now);
-                                  else
-                                    return;
+                                  hidden_.hear(wish, now);
                                   tell_wishes(now);
                                 });
 }
@@ -189,10 +293,6 @@ void LinkBus::tell_wishes(MonoTime now) {
   link_->set_interest(hidden_.within(*own_interest_, played), now);
 }
 
-bool LinkBus::is_of_now(std::uint64_t clock_id, MonoTime said, MonoTime now) const {
-  return clock_id == clock_id_ && said <= now && now - said < kWishHolds;
-}
-
 void LinkBus::tell_status(LinkHandlers& handlers) {
   status_.listen_to(handlers);
   status_.on_change([this] { publish_status(mono_now()); });
@@ -201,18 +301,22 @@ void LinkBus::tell_status(LinkHandlers& handlers) {
 void LinkBus::publish_status(MonoTime now) {
   status_.set_may_remove(link_ != nullptr && link_->core().may_remove());
   HouseLink status = status_.status();
+  // Silence afterwards is the end that the server has announced.
+  const bool is_unexplained = status.trouble == HouseLinkTrouble::kNone ||
+                              status.trouble == HouseLinkTrouble::kNoAnswer ||
+                              status.trouble == HouseLinkTrouble::kInterrupted;
+  if (status.state == HouseLinkState::kLapsed && is_unexplained && link_ != nullptr &&
+      link_->core().has_goodbye())
+    status.trouble = HouseLinkTrouble::kClosed;
   status.time = now;
   status.clock_id = clock_id_;
   port_.publish(Channel::of_house(Signal::kHouseLink), status);
 }
 
-// Of this house and of now: what a recording plays removes nobody.
 void LinkBus::follow_removals() {
-  port_.subscribe<Removal>(Where::kLocal,
-                           [this](const Channel&, const Removal& removal, MonoTime now) {
-                             if (is_of_now(removal.clock_id, removal.time, now) && link_ != nullptr)
-                               link_->ask_removal(removal.guest, removal.number);
-                           });
+  port_.subscribe<Removal>(Where::kLocal, [this](const Channel&, const Removal& removal, MonoTime) {
+    if (link_ != nullptr) link_->ask_removal(removal.guest, removal.number);
+  });
 }
 
 void LinkBus::forget(const GuestId& guest) {
@@ -258,12 +362,18 @@ void LinkBus::publish_second(MonoTime now) {
     port_.publish(Where::kRoom, scene_->first, scene_->second);
   }
   if (link_ == nullptr) return;
+  voice_signs_.expire(now, [this, now](const GuestId& guest, std::uint8_t sign) {
+    send_voice_sign(guest, sign, now);
+  });
+  send_profiles(now);
   const bool has_hearing_expired = wishes_.expire(now), has_hiding_expired = hidden_.expire(now);
   if (has_hearing_expired || has_hiding_expired) tell_wishes(now);
   publish_traffic(now);
   // As the clocks stand now, which is better than when it came.
   if (const auto music = link_->room_music(now))
-    port_.publish(Where::kRoom, link_->room_music_setter(), *music);
+    port_.publish(Where::kRoom, link_->room_setter(wire::StateKind::kMusic), *music);
+  if (const auto song = link_->room_song(now))
+    port_.publish(Where::kRoom, link_->room_setter(wire::StateKind::kSong), *song);
   port_.publish(Channel::of_program(Signal::kStats, "link"), link_->stats(now));
   publish_status(now);
 }

@@ -1,6 +1,7 @@
-// Puts a link on a house's port: what this house captures goes to the link, and what the link hears
-// of the others goes to POSE/guest/<id> and its like; the room's music and scene to MUSIC/room and
-// SCENE/room; further channels to <channel>/guest/<id>, over the bus.
+// Puts a link on a house's port. Captures of this house go to the link; what the link receives of
+// other guests goes to POSE/guest/<id> and its like; the room's music and scene go to MUSIC/room
+// and SCENE/room; further channels go to <channel>/guest/<id>, over the bus. Whose captures and
+// requests the port lets through is the port's matter (core/control/house_inputs.h).
 //
 // Units/frames: as in core/bus; one clock for both.
 // Ownership:    bus, captures (and their port) and link must outlive it; make it before the link,
@@ -21,6 +22,7 @@
 #include "tunnel/link/link.h"
 #include "tunnel/link/link_avatars.h"
 #include "tunnel/link/link_status.h"
+#include "tunnel/link/voice_signs.h"
 #include "tunnel/policy/hearing_wishes.h"
 #include "tunnel/policy/interest_wishes.h"
 
@@ -44,21 +46,21 @@ class LinkBus {
   // From now on what is captured and chosen by this guest goes to the link; by everybody where the
   // guest is not set.
   void send_signals_of(const GuestId& guest);
-  // Faces travel as messages of a further channel, so that no server and no older link has to know
-  // them. To the rules that the link is opened with: in front, as the first that names a channel
-  // counts.
-  static void add_face_rule(std::vector<ChannelRule>& rules);
+  // Faces, the signs of voices and profiles travel as messages of further channels, so that servers
+  // and older links need no support for them. Adds their rules in front of those that the link is
+  // opened with, because the first rule that names a channel applies.
+  static void add_own_rules(std::vector<ChannelRule>& rules);
   // And the channels that the rules let out.
   void send_channels(const std::vector<ChannelRule>& rules);
-  // Of the voices that `own` lets in, only those come that a guest of this house wants, while any
-  // says so on HEARING/local.
+  // While guests of this house send HEARING/local, receives only voices that they request, among
+  // those that `own` lets in.
   void follow_hearing(const Hearing& own);
-  // And of the poses that `own` lets in those that a window of this house shows, while any says so
-  // on INTEREST/local. After follow_hearing().
+  // While windows of this house send INTEREST/local, receives only poses that one of them shows,
+  // among those that `own` lets in. Call it after follow_hearing().
   void follow_interest(const Interest& own);
   // HOUSE_LINK/local says how the link stands. After the caller's own handlers were added.
   void tell_status(LinkHandlers& handlers);
-  // The link asks the server to remove whom a host of this house names on REMOVAL/local.
+  // The link asks the server to remove guests whom a host of this house names with REMOVAL/local.
   void follow_removals();
   void forget(const GuestId& guest);
   // STATS/link, and the states of the others and of the room again, for programs that start late.
@@ -69,7 +71,8 @@ class LinkBus {
   // What is known of one guest of another house.
   struct Known {
     std::tuple<std::optional<TimedSkeleton>, std::optional<Avatar>, std::optional<AvatarFile>,
-               std::optional<Style>, std::optional<Placement>>
+               std::optional<Style>, std::optional<Placement>, std::optional<VoiceState>,
+               std::optional<Profile>>
         states;
     std::map<std::string, std::vector<std::uint8_t>> channels;  // of class state, by full name
   };
@@ -81,10 +84,16 @@ class LinkBus {
   void send_each(const GuestId& guest);
   void publish_traffic(MonoTime now);
   void tell_wishes(MonoTime now);
-  bool is_of_now(std::uint64_t clock_id, MonoTime said, MonoTime now) const;
   void publish_status(MonoTime now);
   void send_face(const GuestId& guest, const Face& face, MonoTime now);
   void on_face(const GuestId& guest, wire::Bytes message, MonoTime now);
+  void send_voice_signs_of(const GuestId& guest);
+  void send_voice_sign(const GuestId& guest, std::uint8_t sign, MonoTime now);
+  void on_voice_sign(const GuestId& guest, wire::Bytes message, MonoTime now);
+  void keep_own_profile(const GuestId& guest, const Profile& profile, MonoTime now);
+  void send_profile(const GuestId& guest, Profile profile, MonoTime now);
+  void send_profiles(MonoTime now);
+  void on_profile(const GuestId& guest, wire::Bytes message, MonoTime now);
   void on_channel(const GuestId& guest, std::string_view name, ChannelClass kind,
                   wire::Bytes message);
 
@@ -98,6 +107,8 @@ class LinkBus {
   std::optional<std::pair<GuestId, Scene>> scene_;
   std::vector<ChannelRule> rules_;
   std::uint32_t faces_heard_ = 0;
+  VoiceSigns voice_signs_;
+  std::map<GuestId, Profile> own_profiles_;  // of guests of this house
   Hearing own_hearing_;
   HearingWishes wishes_;
   std::optional<Interest> own_interest_;  // not set: windows are not asked

@@ -108,8 +108,14 @@ void LinkCore::send(const GuestId& id, const Style& style, MonoTime now) {
 void LinkCore::send(const GuestId& id, const Placement& placement, MonoTime now) {
   states_.send(id, wire::StateKind::kPlacement, placement, now);
 }
+void LinkCore::send(const GuestId& id, const Chat& chat, MonoTime now) {
+  states_.send(id, chat, now);
+}
 void LinkCore::send(const GuestId& id, const Music& music, MonoTime now) {
   room_.send(id, music, now);
+}
+void LinkCore::send(const GuestId& id, const RoomSong& song, MonoTime now) {
+  room_.send(id, song, now);
 }
 void LinkCore::send(const GuestId& id, const Scene& scene, MonoTime now) {
   room_.send(id, scene, now);
@@ -199,7 +205,10 @@ bool LinkCore::on_welcome(wire::Bytes body, MonoTime received, MonoTime now) {
   session_.settle_guests(*welcome, [this](LocalGuest& guest) { sender_.begin_encoder(guest); });
   link_.clock.add({MonoTime::from_us(welcome->link_time_us), welcome->server_receive_us,
                    welcome->server_send_us, received});
-  if (is_new) room_.map_music();
+  if (is_new) {
+    room_.map_times();
+    chat_.map_times();
+  }
   session_.begin(*welcome, now);
   send_ping(now);  // brings what was lost of the roster and the states
   return true;

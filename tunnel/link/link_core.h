@@ -58,8 +58,11 @@ class LinkCore {
   void send(const GuestId& guest, const AvatarFile& file, MonoTime now);
   void send(const GuestId& guest, const Style& style, MonoTime now);
   void send(const GuestId& guest, const Placement& placement, MonoTime now);
+  // A line or sign, as often as the guest's budget allows.
+  void send(const GuestId& guest, const Chat& chat, MonoTime now);
   // What a guest of this house wants for the room: what holds comes through the handlers.
   void send(const GuestId& guest, const Music& music, MonoTime now);
+  void send(const GuestId& guest, const RoomSong& song, MonoTime now);
   void send(const GuestId& guest, const Scene& scene, MonoTime now);
   // A message of a further channel, where a rule of the options lets it out.
   // Whose channel it is; where that is not set, the rule or the house's first guest decides.
@@ -88,9 +91,10 @@ class LinkCore {
   MonoTime removed_until() const { return session_.removed_until(); }
   const LinkCounters& counters() const { return link_.counters; }
   const ClockMapper& clock() const { return link_.clock; }
-  // The room's music in this house's clock, as it is mapped now.
+  // The room's music and song in this house's clock, as it is mapped now.
   std::optional<Music> room_music(MonoTime now) const { return room_.music(now); }
-  const GuestId& room_music_setter() const { return room_.music_setter(); }
+  std::optional<RoomSong> room_song(MonoTime now) const { return room_.song(now); }
+  const GuestId& room_setter(wire::StateKind kind) const { return room_.setter(kind); }
   void fill(Stats& stats) const;
   // Those who are here, and the last that have left.
   std::vector<RemoteGuestStats> remote_stats() const { return link_.remotes.stats(); }
@@ -114,7 +118,8 @@ class LinkCore {
   LinkChannels channels_{link_, sender_};
   LinkReceiver receiver_{link_, sender_, channels_};
   LinkRoom room_{link_};
-  LinkStates states_{link_, room_, channels_};
+  LinkChat chat_{link_};
+  LinkStates states_{link_, room_, channels_, chat_};
   LinkFiles files_{link_};
   LinkVoice voice_{link_, sender_};
   LinkInterest interest_{link_};

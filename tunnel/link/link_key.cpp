@@ -1,6 +1,6 @@
 #include "tunnel/link/link_key.h"
 
-#include "tunnel/seal/key_files.h"
+#include "tunnel/seal/keys/key_files.h"
 #include "tunnel/server/server.h"
 
 namespace dance {
@@ -21,7 +21,21 @@ Result<std::string> path_of_keys(const LinkKeySource& source) {
 
 Result<std::unique_ptr<SealContext>> LinkKey::context() const {
   return certificates ? SealContext::for_link(*certificates, server)
-                      : SealContext::for_link(name, key);
+                      : SealContext::for_link(identity, key, server_key);
+}
+
+Result<LinkKey> LinkKey::of(const HouseKey& key, const PrivateKey& house) {
+  const auto session_key = house_session_key(house, key.grant, key.server_key);
+  if (!session_key)
+    return fail("the key of " + key.title() +
+                " names no key that a server could have: remove it with dance key --remove, and "
+                "ask for another");
+  LinkKey made;
+  made.identity = identity_text(key.name.view(), house.public_key());
+  made.key = *session_key;
+  made.server_key = key.server_key;
+  made.server = host_of(key.server);
+  return made;
 }
 
 Result<std::optional<LinkKey>> find_link_key(const std::string& server, const Address& at,
@@ -42,12 +56,12 @@ Result<std::optional<LinkKey>> find_link_key(const std::string& server, const Ad
   // A key that says no server is for one elsewhere: on this machine there is a better one.
   const bool is_here = at.is_set() && at.is_loopback() && source.key_file.empty();
   if (key != nullptr && !(is_here && key->server.empty())) {
-    chosen.name = std::string(key->name.view());
-    chosen.key = key->key;
-    return std::optional(std::move(chosen));
+    DANCE_TRY(const PrivateKey house, house_identity());
+    DANCE_TRY(LinkKey own, LinkKey::of(*key, house));
+    return std::optional(std::move(own));
   }
   if (!is_here) return std::optional<LinkKey>();
-  chosen.name = kLocalKeyName;
+  chosen.identity = kLocalKeyName;
   DANCE_TRY(chosen.key, local_key());
   return std::optional(std::move(chosen));
 }

@@ -1,5 +1,5 @@
-// With what a link proves to its server who it is: a key that both share, or a certificate; and
-// where a program finds it.
+// The key that authenticates a link and its server to each other: both derive it from their
+// identity keys, or certificates; and where a program finds it.
 //
 // Units/frames: none.
 // Ownership:    plain values.
@@ -13,19 +13,22 @@
 
 #include "core/base/result.h"
 #include "core/net/address.h"
+#include "tunnel/seal/keys/house_keys.h"
 #include "tunnel/seal/seal_context.h"
 #include "tunnel/wire/wire.h"
 
 namespace dance {
 
 struct LinkKey {
-  std::string name;  // whom the server knows it by
+  std::string identity;  // what the link calls itself in handshakes
   PresharedKey key;
+  PublicKey server_key;  // not set: any, on this machine
   // Set: used in the key's stead; `server` is the name that the server's certificate must bear.
   std::optional<SealCertificates> certificates;
   std::string server;
 
   Result<std::unique_ptr<SealContext>> context() const;
+  static Result<LinkKey> of(const HouseKey& key, const PrivateKey& house);
 };
 
 // Where to look; empty = the places where `dance key` puts keys.

@@ -3,10 +3,12 @@
 #include <cstdio>
 #include <memory>
 
+#include "core/control/house_inputs.h"
 #include "core/net/mono_clock.h"
 #include "core/program/message_throttle.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
+#include "tunnel/link/find_server.h"
 #include "tunnel/link/link_bus.h"
 #include "tunnel/link/link_report.h"
 #include "tunnel/server/server.h"
@@ -41,6 +43,7 @@ struct LinkProgramOptions {
   std::vector<std::string> want;
   std::vector<std::string> hear;
   std::vector<std::string> channels;
+  std::vector<std::string> bus_captures;
   bool listen_only = false;
   bool json = false;
 };
@@ -76,6 +79,16 @@ Result<LinkOptions> checked(const LinkProgramOptions& given) {
   return options;
 }
 
+Result<std::vector<GuestId>> bus_captures_of(const LinkProgramOptions& given) {
+  std::vector<GuestId> guests;
+  for (const std::string& name : given.bus_captures) {
+    const auto guest = GuestId::parse(name);
+    if (!guest) return fail("--bus-captures '" + name + "': " + kGuestIdRule);
+    guests.push_back(*guest);
+  }
+  return guests;
+}
+
 void add_talk(LinkHandlers& handlers, LinkBus& link_bus, const LinkProgramOptions& options,
               const wire::RoomName& room) {
   const auto troubles = std::make_shared<MessageThrottle>();
@@ -103,6 +116,12 @@ void add_talk(LinkHandlers& handlers, LinkBus& link_bus, const LinkProgramOption
   handlers.on_no_answer = [troubles](const Address& address) {
     troubles->warn(no_answer_line(address), mono_now());
   };
+  handlers.on_new_address = [&options](const Address& address) {
+    talk::info("{}", new_address_line(options.server, address));
+  };
+  handlers.on_unknown_name = [troubles](const std::string& why) {
+    troubles->warn(unknown_name_line(why), mono_now());
+  };
   handlers.on_no_entry = [&options, troubles](SealTrouble trouble) {
     troubles->warn(no_entry_line(trouble, options.server), mono_now());
   };
@@ -115,22 +134,35 @@ Result<void> run_link(const LinkProgramOptions& given) {
   DANCE_TRY(LinkOptions options, checked(given));
   // Channels come of no guest of whom no pose is wanted.
   const bool lets_any = lets_any_in(options.channels);
-  LinkBus::add_face_rule(options.channels);
+  LinkBus::add_own_rules(options.channels);
   const GuestId first = options.guests.empty() ? GuestId() : options.guests[0];
-  DANCE_TRY(const LinkKey key, choose_link_key(given.server, options.room, first, given.key));
-  DANCE_TRY(const auto server, Address::resolve_all(given.server, kDefaultServerPort));
   DANCE_TRY(auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return stops;
+  options.look_up = look_up_of(given.server);
+  DANCE_TRY(const FoundServer server,
+            find_server(given.server, options.look_up, options.room, first, given.key, *poller));
+  if (server.addresses.empty()) talk::warn("{}", unknown_name_line(server.why));
   DANCE_TRY(auto bus, Bus::open(bus_url_or_default(given.bus)));
-  Captures captures(*bus, options.clock_id);
+  HouseInputs::Options taken;
+  taken.bus_url = bus->url();
+  DANCE_TRY(taken.from_bus, bus_captures_of(given));
+  const auto refusals = std::make_shared<MessageThrottle>();
+  taken.on_refused = [refusals](const GuestId& guest) {
+    refusals->warn(refused_poses_line(guest), mono_now());
+  };
+  HouseInputs inputs(*bus, *bus, std::move(taken), *poller);
+  if (!inputs.problem().empty()) talk::warn("{}", no_house_socket_line(inputs.problem()));
+  Captures captures(inputs, options.clock_id);
   LinkBus link_bus(*bus, captures, options.clock_id);
-  LinkAvatars avatars(AvatarStore::of_user(), *poller,
+  DANCE_TRY(WakeEvent avatars_wake, WakeEvent::create());
+  LinkAvatars avatars(AvatarStore::of_user(), std::move(avatars_wake), *poller,
                       [](const std::string& line) { talk::info("{}", line); });
   link_bus.use_avatars(avatars);
   LinkHandlers handlers = link_bus.handlers();
   add_talk(handlers, link_bus, given, options.room);
   link_bus.tell_status(handlers);
-  DANCE_TRY(auto link, Link::open(server, key, options, std::move(handlers), *poller));
+  DANCE_TRY(auto link,
+            Link::open(server.addresses, server.key, options, std::move(handlers), *poller));
   link_bus.attach(*link);
   if (options.guests.empty() && !options.listen_only) link_bus.send_signals_of(GuestId());
   for (const GuestId& guest : options.guests) link_bus.send_signals_of(guest);
@@ -178,6 +210,11 @@ int main(int argc, char** argv) {
   line.add_flag("--listen-only", options.listen_only,
                 "hears the room and sends nothing of this house");
   line.add("--bus", options.bus, "LCM URL of the house's bus");
+  line.add("--bus-captures", options.bus_captures,
+           "guest whose captures are accepted from the bus, for programs that are not part of "
+           "DanceGraph; any user of this machine can then dance and speak as this guest; may be "
+           "repeated")
+      .guest_name();
   line.add("--quality", options.quality_mm,
            "millimetres that no joint is off by more at the others'")
       .range(0.125, 20.0)

@@ -66,6 +66,7 @@ std::string link_report_json(const Link& link) {
                             {"channels_unlisted", c.channels_unlisted},
                             {"channels_invalid", c.channels_invalid},
                             {"channels_limited", c.channels_limited},
+                            {"chats_limited", c.chats_limited},
                             {"channels_late", c.channels_late},
                             {"channels_unrouted", c.channels_unrouted},
                             {"channels_overflow", c.channels_overflow},

@@ -9,6 +9,8 @@ HouseLinkTrouble trouble_of(SealTrouble trouble) {
       return HouseLinkTrouble::kWrongKey;
     case SealTrouble::kNotTrusted:
       return HouseLinkTrouble::kNotTrusted;
+    case SealTrouble::kServerKeyChanged:
+      return HouseLinkTrouble::kServerKeyChanged;
     case SealTrouble::kInterrupted:
       return HouseLinkTrouble::kInterrupted;
     case SealTrouble::kNoAnswer:

@@ -63,7 +63,7 @@ std::vector<RoomGuests> ask_who_is_there(const Address& server, const LinkKey& k
     found[which] = guests_in(*answer);
   };
   handlers.on_trouble = [&](SealTrouble trouble, MonoTime) {
-    is_refused = trouble == SealTrouble::kWrongKey || trouble == SealTrouble::kNotTrusted;
+    is_refused = trouble != SealTrouble::kNoAnswer && trouble != SealTrouble::kInterrupted;
   };
   SealClient client(std::move(*context), secure_random_u64, std::move(handlers), *socket);
   (*poller)->watch(socket->fd(), [&](MonoTime now) {

@@ -15,6 +15,8 @@ constexpr Duration kFlush = Duration::ms(500);
 // What the library's threads see of a bus. They may still be in a callback when it ends, and nobody
 // can wait for that: so it stays for the process's life.
 struct Shared {
+  explicit Shared(WakeEvent wake) : inbox(std::move(wake)) {}
+
   NatsInbox inbox;
   std::mutex mutex;
   NatsValues* values = nullptr;
@@ -28,15 +30,16 @@ struct Shared {
     const std::lock_guard lock(mutex);
     values = now;
   }
-  static Shared& make() {
+  static Shared& make(WakeEvent wake) {
     static auto& all = *new std::vector<std::unique_ptr<Shared>>;
-    return *all.emplace_back(std::make_unique<Shared>());
+    return *all.emplace_back(std::make_unique<Shared>(std::move(wake)));
   }
 };
 
 class ConnectedNatsBus final : public NatsBus {
  public:
-  explicit ConnectedNatsBus(Poller& poller) : poller_(poller), shared_(Shared::make()) {}
+  ConnectedNatsBus(Poller& poller, WakeEvent wake)
+      : poller_(poller), shared_(Shared::make(std::move(wake))) {}
   ~ConnectedNatsBus() override {
     if (values_) poller_.unwatch(shared_.inbox.fd());
     shared_.set_values(nullptr);
@@ -95,6 +98,7 @@ class ConnectedNatsBus final : public NatsBus {
       counters.dropped_out = messages_->counters().dropped_out + messages_->counters().refused;
     }
     counters.failed_values = values_->failed();
+    counters.emptied = values_->emptied();
     counters.unwritten_values = values_->unwritten();
     counters.reconnects = shared_.reconnects.load(std::memory_order_relaxed);
     counters.is_connected =
@@ -119,8 +123,8 @@ class ConnectedNatsBus final : public NatsBus {
   void on_readable(MonoTime now) {
     for (const NatsInbox::Item& item : shared_.inbox.take()) {
       natsMsg* message = item.message.get();
-      if (item.kind == NatsInbox::Kind::kBack) {
-        handlers_.on_back(now);
+      if (item.kind != NatsInbox::Kind::kValue) {
+        (item.kind == NatsInbox::Kind::kBack ? handlers_.on_back : handlers_.on_emptied)(now);
         continue;
       }
       const Bytes bytes(reinterpret_cast<const std::uint8_t*>(natsMsg_GetData(message)),
@@ -149,7 +153,8 @@ class ConnectedNatsBus final : public NatsBus {
 bool NatsBus::is_built() { return true; }
 
 Result<std::unique_ptr<NatsBus>> NatsBus::connect(const NatsOptions& options, Poller& poller) {
-  auto bus = std::make_unique<ConnectedNatsBus>(poller);
+  DANCE_TRY(WakeEvent wake, WakeEvent::create());
+  auto bus = std::make_unique<ConnectedNatsBus>(poller, std::move(wake));
   if (auto opened = bus->open(options); !opened) return tl::make_unexpected(opened.error());
   return bus;
 }

@@ -26,6 +26,7 @@ class NatsBus : public ClusterBus {
     std::uint64_t dropped_out = 0;    // no connection, or NATS did not read, or refused it
     std::uint64_t failed_values = 0;  // tries that failed; each is tried again
     std::size_t unwritten_values = 0;
+    std::uint64_t emptied = 0;  // how often NATS has lost the values
     std::uint64_t reconnects = 0;
     bool is_connected = false;
   };

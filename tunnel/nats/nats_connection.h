@@ -7,6 +7,8 @@
 //               apart, each with its cure.
 #pragma once
 
+#include <cstdint>
+
 #include "core/base/result.h"
 #include "tunnel/nats/nats_handles.h"
 #include "tunnel/nats/nats_options.h"
@@ -23,8 +25,11 @@ Result<NatsHandle<natsConnection>> connect_nats(const NatsOptions& options, cons
 struct NatsBucket {
   NatsHandle<jsCtx> stream;
   NatsHandle<kvStore> store;
+  std::int64_t made_ns = 0;  // wall clock of NATS: tells a bucket from one that was made again
 };
-// The one that the options name; made where there is none.
+// The one that the options name; made where there is none. Waits for NATS servers that start.
 Result<NatsBucket> open_nats_bucket(natsConnection* connection, const NatsOptions& options);
+// The same, once: waits for NATS's answers only.
+Result<NatsBucket> try_nats_bucket(natsConnection* connection, const NatsOptions& options);
 
 }  // namespace dance

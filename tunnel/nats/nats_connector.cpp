@@ -1,12 +1,8 @@
 #include "tunnel/nats/nats_connector.h"
 
-#include <sys/eventfd.h>
-#include <unistd.h>
-
 #include <chrono>
 #include <utility>
 
-#include "core/base/assert.h"
 #include "core/net/secure_random.h"
 
 namespace dance {
@@ -18,13 +14,11 @@ constexpr auto kLasts = std::chrono::seconds(1);
 
 }  // namespace
 
-NatsConnector::NatsConnector(const NatsOptions& options)
+NatsConnector::NatsConnector(const NatsOptions& options, WakeEvent wake)
     : options_(options),
       next_(secure_random_u64() % options.urls.size()),
-      fd_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
-      thread_([this] { run(); }) {
-  DANCE_ASSERT(fd_ >= 0, fd_);
-}
+      wake_(std::move(wake)),
+      thread_([this] { run(); }) {}
 
 NatsConnector::~NatsConnector() {
   {
@@ -33,7 +27,6 @@ NatsConnector::~NatsConnector() {
   }
   changed_.notify_all();
   thread_.join();
-  close(fd_);
 }
 
 // The thread waits meanwhile: it has not been asked.
@@ -54,8 +47,7 @@ void NatsConnector::ask() {
 }
 
 std::optional<NatsHandshake> NatsConnector::take() {
-  eventfd_t ignored = 0;
-  eventfd_read(fd_, &ignored);
+  wake_.clear();
   const std::lock_guard lock(mutex_);
   return std::exchange(made_, std::nullopt);
 }
@@ -74,7 +66,7 @@ void NatsConnector::run() {
       made_at_ = std::chrono::steady_clock::now();
       is_asked_ = false;
       made_.emplace(std::move(*made));
-      eventfd_write(fd_, 1);
+      wake_.signal();
     } else {
       changed_.wait_for(lock, kConnectAgain, [this] { return ends_.load(); });
     }

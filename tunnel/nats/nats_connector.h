@@ -15,13 +15,14 @@
 #include <optional>
 #include <thread>
 
+#include "core/net/system/wake_event.h"
 #include "tunnel/nats/messages/nats_handshake.h"
 
 namespace dance {
 
 class NatsConnector {
  public:
-  explicit NatsConnector(const NatsOptions& options);
+  NatsConnector(const NatsOptions& options, WakeEvent wake);
   ~NatsConnector();
   NatsConnector(const NatsConnector&) = delete;
   NatsConnector& operator=(const NatsConnector&) = delete;
@@ -30,7 +31,7 @@ class NatsConnector {
   Result<NatsHandshake> connect_now();
   void ask();
   // Readable when what was asked for is there.
-  int fd() const { return fd_; }
+  int fd() const { return wake_.fd(); }
   std::optional<NatsHandshake> take();
 
  private:
@@ -38,7 +39,7 @@ class NatsConnector {
 
   NatsOptions options_;
   std::size_t next_;  // of the servers
-  int fd_;
+  WakeEvent wake_;
   std::mutex mutex_;
   std::condition_variable changed_;
   bool is_asked_ = false;

@@ -2,32 +2,15 @@
 
 #include <nats/nats.h>
 #include <openssl/crypto.h>
-#include <openssl/evp.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <span>
 #include <vector>
 
 #include "core/base/printable.h"
+#include "tunnel/seal/keys/base64url.h"
 
 namespace dance {
-namespace {
-
-// Without padding, for URLs.
-std::string url_base64(std::span<const unsigned char> bytes) {
-  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');
-  const int size = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()), bytes.data(),
-                                   static_cast<int>(bytes.size()));
-  text.resize(std::min(static_cast<std::size_t>(size), text.find('=')));
-  std::replace(text.begin(), text.end(), '+', '-');
-  std::replace(text.begin(), text.end(), '/', '_');
-  return text;
-}
-
-}  // namespace
-
 Result<NatsProof> prove_nats_user(const std::string& path, const std::string& nonce) {
   const std::string option = "--cluster-credentials " + printable(path);
   std::ifstream in(path);
@@ -55,7 +38,7 @@ Result<NatsProof> prove_nats_user(const std::string& path, const std::string& no
   NatsProof proof{found[0], ""};
   wipe();
   if (status != NATS_OK) return fail(option + ": no seed of a user");
-  proof.signature = url_base64({signature, static_cast<std::size_t>(size)});
+  proof.signature = base64url({signature, static_cast<std::size_t>(size)});
   std::free(signature);
   return proof;
 }

@@ -44,8 +44,9 @@ std::string cure_of_nats_refusal(const NatsOptions& options) {
     return url.find('@') != std::string::npos;
   };
   if (std::ranges::any_of(options.urls, names_a_user))
-    return "user and password in the URL, or the token, are none of its users'";
-  return "give --cluster-certificate and --cluster-private-key, or --cluster-credentials";
+    return "NATS does not accept the login in the file of --cluster-login";
+  return "give --cluster-certificate and --cluster-private-key, --cluster-credentials or "
+         "--cluster-login";
 }
 
 }  // namespace dance

@@ -173,6 +173,16 @@ std::string SealChannel::certificate_name() const {
 
 std::string SealChannel::cipher() const { return SSL_get_cipher_name(ssl_); }
 
+SealChannel::Proof SealChannel::proof() const {
+  constexpr std::string_view kLabel = "EXPORTER-dance-rekey";
+  DANCE_ASSERT(is_done_);
+  Proof proof;
+  const int made = SSL_export_keying_material(ssl_, proof.data(), proof.size(), kLabel.data(),
+                                              kLabel.size(), nullptr, 0, 0);
+  DANCE_ASSERT(made == 1, made);
+  return proof;
+}
+
 SealChannel::Opened SealChannel::open(seal::Bytes body, seal::Bytes& plain) {
   const std::size_t sealed = body.size() - 2;
   // Nothing longer than what we send: OpenSSL would keep the rest for the next.
@@ -223,7 +233,10 @@ bool SealChannel::send(seal::Bytes plain) {
   if (!is_done_ || plain.empty() || plain.size() > seal::kMaxPlain) return false;
   ERR_clear_error();
   const int size = SSL_write(ssl_, plain.data(), static_cast<int>(plain.size()));
-  if (size > 0) return true;
+  if (size > 0) {
+    ++sealed_count_;
+    return true;
+  }
   ERR_clear_error();
   return false;
 }

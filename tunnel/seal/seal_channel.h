@@ -55,6 +55,11 @@ class SealChannel {
   // Name in the certificate of the other side ("" = it showed none), once done.
   std::string certificate_name() const;
   std::string cipher() const;
+  using Proof = std::array<std::uint8_t, seal::kSessionProofBytes>;
+  // Bytes that only the two ends of this session can know, once done (RFC 5705).
+  Proof proof() const;
+  // Records sealed so far.
+  std::uint64_t sealed_count() const { return sealed_count_; }
 
   // Once done: one compact datagram's body to plaintext, valid until the next call.
   Opened open(seal::Bytes body, seal::Bytes& plain);
@@ -80,6 +85,7 @@ class SealChannel {
   bool is_done_ = false;
   bool is_newest_ = false;
   std::size_t longest_ = seal::kMaxSealed;
+  std::uint64_t sealed_count_ = 0;
   seal::ReplayWindow window_;
   // The one datagram that OpenSSL reads next.
   std::array<std::uint8_t, seal::kRecordHeader + 2048> in_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/assert.h"
+#include "core/base/deadline.h"
 
 namespace dance {
 namespace {
@@ -28,11 +29,12 @@ SealClient::SealClient(std::unique_ptr<SealContext> context, RandomU64 random, H
 
 SealClient::~SealClient() { close(); }
 
-void SealClient::begin(MonoTime now) {
+void SealClient::begin(MonoTime now, bool is_rekeying) {
   ++counters_.tries;
   std::uint64_t id = 0;
   while (id == 0) id = seal::id_of(random_());
   try_ = Try();
+  try_.is_rekeying = is_rekeying;
   try_.channel = std::make_unique<SealChannel>(*context_, SealChannel::Side::kLink, sink_);
   try_.channel->set_id(id);
   try_.since = now;
@@ -40,14 +42,24 @@ void SealClient::begin(MonoTime now) {
 }
 
 void SealClient::begin_anew(MonoTime now) {
+  next_.reset();
   next_try_ = MonoTime();
   begin(now);
   next_tick_ = now + kTickOfTry;
 }
 
+void SealClient::connect_to_other_server(MonoTime now) {
+  const bool was_sealed = session_ != nullptr;
+  session_.reset();
+  previous_.reset();
+  begin_anew(now);
+  if (was_sealed && handlers_.on_unsealed) handlers_.on_unsealed(now);
+}
+
 void SealClient::give_up(SealTrouble trouble, MonoTime now) {
+  if (try_.is_rekeying && session_) return end_rekeying(now);
   try_ = Try();
-  const bool is_refused = trouble == SealTrouble::kWrongKey || trouble == SealTrouble::kNotTrusted;
+  const bool is_refused = trouble != SealTrouble::kNoAnswer && trouble != SealTrouble::kInterrupted;
   next_try_ = is_refused ? now + kRefusedWait : now;
   if (handlers_.on_trouble) handlers_.on_trouble(trouble, now);
 }
@@ -58,16 +70,38 @@ void SealClient::go_on(seal::Bytes records, MonoTime now) {
     case SealChannel::Progress::kUnderWay:
       return;
     case SealChannel::Progress::kFailed:
-      return give_up(is_proving ? SealTrouble::kWrongKey : SealTrouble::kNotTrusted, now);
+      return give_up(context_->take_key_mismatch() ? SealTrouble::kServerKeyChanged
+                     : is_proving                  ? SealTrouble::kWrongKey
+                                                   : SealTrouble::kNotTrusted,
+                     now);
     case SealChannel::Progress::kDone:
       break;
   }
-  session_ = std::move(try_.channel);
+  std::unique_ptr<SealChannel> made = std::move(try_.channel);
+  // A session that has fallen silent may be of a server that is no more: it is replaced.
+  const bool is_rekeying = try_.is_rekeying && session_ && now - last_heard_ <= kSilence;
   try_ = Try();
+  if (!is_rekeying) return use_session(std::move(made), now);
+  next_ = std::move(made);
+  next_since_ = now;
+  announce_next(now);
+}
+
+void SealClient::use_session(std::unique_ptr<SealChannel> session, MonoTime now) {
+  session_ = std::move(session);
+  next_.reset();
+  previous_.reset();
   ++counters_.sessions;
-  last_heard_ = now;
-  next_try_ = MonoTime();
+  last_heard_ = session_since_ = now;
+  rekey_delay_ = 0.1 * static_cast<double>(random_() >> 32) * 0x1p-32;
+  next_try_ = next_rekeying_ = MonoTime();
   if (handlers_.on_sealed) handlers_.on_sealed(now);
+}
+
+SealChannel* SealClient::channel_of(std::uint64_t id) const {
+  for (SealChannel* channel : {session_.get(), next_.get(), previous_.get()})
+    if (channel != nullptr && channel->id() == id) return channel;
+  return nullptr;
 }
 
 void SealClient::receive(seal::Bytes datagram, MonoTime received, MonoTime now) {
@@ -82,6 +116,7 @@ void SealClient::receive(seal::Bytes datagram, MonoTime received, MonoTime now) 
     // Anybody can say so: the session stays until another stands.
     if (!is_of_session) return;
     ++counters_.notices;
+    if (next_) return use_session(std::move(next_), now);
     if (!try_.channel && (!next_try_.is_set() || now >= next_try_)) {
       begin(now);
       next_try_ = now + kNoticeWait;
@@ -96,16 +131,22 @@ void SealClient::receive(seal::Bytes datagram, MonoTime received, MonoTime now) 
       go_on(opening->body, now);
     } else if (is_of_session && session_->take_records(opening->body)) {
       session_.reset();
+      next_.reset();
+      previous_.reset();
       next_tick_ = now;
       if (handlers_.on_unsealed) handlers_.on_unsealed(now);
+    } else if (next_ && opening->id == next_->id()) {
+      if (next_->take_records(opening->body)) end_rekeying(now);
     }
     return;
   }
   seal::Bytes plain;
-  const auto opened =
-      is_of_session ? session_->open(opening->body, plain) : SealChannel::Opened::kForged;
+  SealChannel* channel = channel_of(opening->id);
+  const auto opened = channel ? channel->open(opening->body, plain) : SealChannel::Opened::kForged;
   if (opened == SealChannel::Opened::kPlain) {
     last_heard_ = now;
+    if (channel == next_.get()) switch_to_next(now);
+    if (plain[0] == seal::kRekeyed) return;
     if (plain[0] == seal::kPathQuestion) return answer_path(plain);
     handlers_.on_datagram(plain, received, now);
   } else if (opened == SealChannel::Opened::kReplayed) {
@@ -137,16 +178,22 @@ MonoTime SealClient::tick(MonoTime now) {
     else
       try_.channel->resend_when_due();
   }
+  if (next_ && now - last_heard_ > kSilence) use_session(std::move(next_), now);
   const bool is_wanted = !session_ || now - last_heard_ > kSilence;
   if (!try_.channel && is_wanted && now >= next_try_) begin(now);
+  const MonoTime rekey_tick_at = rekey_tick(now);
   next_tick_ = now + (try_.channel ? kTickOfTry : kTickOfSession);
   if (!try_.channel && is_wanted && next_try_ > now) next_tick_ = std::min(next_tick_, next_try_);
+  next_tick_ = earlier(next_tick_, rekey_tick_at);
   return next_tick_;
 }
 
 void SealClient::close() {
   if (session_) session_->close();
   session_.reset();
+  if (next_) next_->close();
+  next_.reset();
+  previous_.reset();
   try_ = Try();
 }
 

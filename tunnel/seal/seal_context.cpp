@@ -18,8 +18,8 @@ constexpr const char* kCertificateCiphers =
     "ECDHE-ECDSA-CHACHA20-POLY1305:ECDHE-RSA-CHACHA20-POLY1305";
 constexpr std::size_t kMaxCookie = 64;
 
-const SealContext& context_of(SSL* ssl) {
-  return *static_cast<const SealContext*>(SSL_CTX_get_app_data(SSL_get_SSL_CTX(ssl)));
+SealContext& context_of(SSL* ssl) {
+  return *static_cast<SealContext*>(SSL_CTX_get_app_data(SSL_get_SSL_CTX(ssl)));
 }
 
 unsigned int give_key(const PresharedKey& key, unsigned char* out, unsigned int room) {
@@ -34,9 +34,10 @@ unsigned int on_server_key(SSL* ssl, const char* identity, unsigned char* out, u
   return give_key(key ? *key : PresharedKey::make(), out, room);
 }
 
-unsigned int on_link_key(SSL* ssl, const char*, char* identity, unsigned int identity_room,
-                         unsigned char* out, unsigned int room) {
-  const SealContext& context = context_of(ssl);
+unsigned int on_link_key(SSL* ssl, const char* server_key, char* identity,
+                         unsigned int identity_room, unsigned char* out, unsigned int room) {
+  SealContext& context = context_of(ssl);
+  if (!context.check_server_key(server_key != nullptr ? server_key : "")) return 0;
   if (context.identity().size() + 1 > identity_room) return 0;
   std::memcpy(identity, context.identity().c_str(), context.identity().size() + 1);
   return give_key(context.key(), out, room);
@@ -65,6 +66,18 @@ Result<void> set_ciphers(SSL_CTX* context, const std::string& ciphers) {
   return {};
 }
 
+// If the authorities' file has revocation lists too, each certificate of a chain must be covered by
+// one that is not out of date.
+void check_revocation(SSL_CTX* context) {
+  X509_STORE* store = SSL_CTX_get_cert_store(context);
+  const STACK_OF(X509_OBJECT)* objects = X509_STORE_get0_objects(store);
+  for (int i = 0; i < sk_X509_OBJECT_num(objects); ++i)
+    if (X509_OBJECT_get_type(sk_X509_OBJECT_value(objects, i)) == X509_LU_CRL) {
+      X509_STORE_set_flags(store, X509_V_FLAG_CRL_CHECK | X509_V_FLAG_CRL_CHECK_ALL);
+      return;
+    }
+}
+
 }  // namespace
 
 SealContext::SealContext(bool is_server)
@@ -81,7 +94,8 @@ SealContext::SealContext(bool is_server)
 SealContext::~SealContext() { SSL_CTX_free(context_); }
 
 Result<std::unique_ptr<SealContext>> SealContext::for_server(
-    FindKey find_key, Cookies cookies, const std::optional<SealCertificates>& certificates) {
+    const PublicKey& server_key, FindKey find_key, Cookies cookies,
+    const std::optional<SealCertificates>& certificates) {
   auto made = std::unique_ptr<SealContext>(new SealContext(true));
   made->find_key_ = std::move(find_key);
   made->cookies_ = std::move(cookies);
@@ -90,6 +104,8 @@ Result<std::unique_ptr<SealContext>> SealContext::for_server(
   SSL_CTX_set_cookie_generate_cb(context, on_make_cookie);
   SSL_CTX_set_cookie_verify_cb(context, on_check_cookie);
   SSL_CTX_set_psk_server_callback(context, on_server_key);
+  const int hinted = SSL_CTX_use_psk_identity_hint(context, server_key.text().c_str());
+  DANCE_ASSERT(hinted == 1, hinted);
   std::string ciphers = kKeyCiphers;
   if (certificates) {
     if (auto used = made->use(*certificates); !used) return tl::make_unexpected(used.error());
@@ -101,10 +117,12 @@ Result<std::unique_ptr<SealContext>> SealContext::for_server(
 }
 
 Result<std::unique_ptr<SealContext>> SealContext::for_link(std::string identity,
-                                                           const PresharedKey& key) {
+                                                           const PresharedKey& key,
+                                                           const PublicKey& server) {
   auto made = std::unique_ptr<SealContext>(new SealContext(false));
   made->identity_ = std::move(identity);
   made->key_ = key;
+  made->server_key_ = server;
   SSL_CTX_set_psk_client_callback(made->context_, on_link_key);
   if (auto set = set_ciphers(made->context_, kKeyCiphers); !set)
     return tl::make_unexpected(set.error());
@@ -127,6 +145,12 @@ Result<std::unique_ptr<SealContext>> SealContext::for_link(const SealCertificate
   return made;
 }
 
+bool SealContext::check_server_key(std::string_view text) {
+  if (!server_key_.is_set() || PublicKey::parse(text) == server_key_) return true;
+  has_key_mismatch_ = true;
+  return false;
+}
+
 Result<void> SealContext::use(const SealCertificates& certificates) {
   ERR_clear_error();
   if (SSL_CTX_use_certificate_chain_file(context_, certificates.chain.c_str()) != 1)
@@ -144,6 +168,7 @@ Result<void> SealContext::use(const SealCertificates& certificates) {
   if (!is_trust_there)
     return fail("authorities " + certificates.authorities + ": " + last_reason() +
                 "; a PEM file of certificates is wanted");
+  check_revocation(context_);
   return {};
 }
 

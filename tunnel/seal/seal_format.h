@@ -16,6 +16,8 @@
 #include <span>
 #include <string_view>
 
+#include "core/base/time.h"
+
 namespace dance::seal {
 
 using Bytes = std::span<const std::uint8_t>;
@@ -77,13 +79,23 @@ std::optional<Bytes> cookie_of(Bytes records);
 constexpr std::uint8_t kPathQuestion = 0xf0;
 constexpr std::uint8_t kPathAnswer = 0xf1;
 constexpr std::size_t kPathBytes = 1 + 8;
-// In a session that an invitation opened there is nothing but these: a link names the key that it
-// has made, 32 bytes, until the server says in one byte what has become of that (Binding).
-constexpr std::uint8_t kBindingWish = 0xf2;
+// A session that an invitation opened has these two messages only: a link requests that the server
+// bind the guest to the identity with which the link opened the session, and the server reports in
+// one byte what became of that (Binding).
+constexpr std::uint8_t kBindingRequest = 0xf2;
 constexpr std::uint8_t kBindingAnswer = 0xf3;
-constexpr std::size_t kBindingWishBytes = 1 + 32;
+constexpr std::size_t kBindingRequestBytes = 1;
 constexpr std::size_t kBindingAnswerBytes = 1 + 1;
-// A link that comes with an invitation calls itself this and the guest's name: no guest can be
+// A session gets new keys from a second session beside it. Once that is established, the link sends
+// its id and a proof in the first: bytes that only the two ends of the second session can know. The
+// server then sends in the second, and begins with one byte.
+constexpr std::uint8_t kRekey = 0xf4;
+constexpr std::uint8_t kRekeyed = 0xf5;
+constexpr std::size_t kSessionProofBytes = 16;
+constexpr std::size_t kRekeyBytes = 1 + 8 + kSessionProofBytes;
+// How long both ends still accept what was sent in the session before.
+constexpr Duration kPreviousSessionStays = Duration::s(5);
+// Prefix of the guest's name in the identity of a link that has an invitation: no guest can be
 // called so, as a name has no colon.
 constexpr std::string_view kInvitedPrefix = "invited:";
 

@@ -53,35 +53,38 @@ bool SealServer::is_cookie(const SealChannel& channel, const std::uint8_t* cooki
   return false;
 }
 
-std::optional<PresharedKey> SealServer::find_key(ssl_st* ssl, std::string_view identity) {
+std::optional<PresharedKey> SealServer::find_key(ssl_st* ssl, std::string_view identity_text) {
   SealChannel& channel = SealChannel::of(ssl);
   const auto handshake = std::find_if(handshakes_.begin(), handshakes_.end(),
                                       [&](const auto& h) { return h.channel.get() == &channel; });
   if (handshake == handshakes_.end()) return std::nullopt;
-  const bool is_invited = identity.starts_with(seal::kInvitedPrefix);
+  const auto [name, house] = parse_identity(identity_text);
+  const bool is_invited = name.starts_with(seal::kInvitedPrefix);
   const KeyEntry* entry = is_invited
-                              ? keys_->find_invitation(identity.substr(seal::kInvitedPrefix.size()))
-                              : keys_->find(identity);
-  if (entry == nullptr) {
-    reject(SealReject::kUnknownName);
-    return std::nullopt;
+                              ? keys_->find_invitation(name.substr(seal::kInvitedPrefix.size()))
+                              : keys_->find(name);
+  if (entry == nullptr || house.has_value() == entry->is_local()) {
+    refuse(channel.peer(), name, SealReject::kUnknownName);
+    return house ? server_session_key(identity_, server_key_, *house, nobody_) : std::nullopt;
   }
-  if (entry->is_local && !channel.peer().is_loopback()) {
-    reject(SealReject::kNotLocal);
+  if (entry->is_local() && !channel.peer().is_loopback()) {
+    refuse(channel.peer(), name, SealReject::kNotLocal);
     return std::nullopt;
   }
   handshake->key = *entry;
+  handshake->house = house.value_or(PublicKey());
   handshake->is_known = true;
   handshake->is_invited = is_invited;
-  return is_invited ? entry->invitation->key : entry->key;
+  if (entry->is_local()) return entry->local_key;
+  return server_session_key(identity_, server_key_, *house,
+                            is_invited ? entry->invitation->key : entry->key);
 }
 
 void SealServer::on_records(const Address& from, const seal::Opening& opening, MonoTime now) {
-  if (const auto found = peers_.find(opening.id); found != peers_.end()) {
-    SealChannel& channel = *found->second.channel;
-    if (channel.peer() != from) return reject(SealReject::kForeignSource);
-    if (channel.take_records(opening.body)) end(opening.id);
-    return;
+  if (const auto session = find_session(opening.id)) {
+    if (session->channel->peer() != from) return reject(SealReject::kForeignSource);
+    if (!session->channel->take_records(opening.body)) return;
+    return session->is_current() ? end(session->id) : forget_previous(*session->peer);
   }
   for (std::size_t i = 0; i < handshakes_.size(); ++i) {
     const SealChannel& channel = *handshakes_[i].channel;
@@ -90,10 +93,12 @@ void SealServer::on_records(const Address& from, const seal::Opening& opening, M
   on_stranger(from, opening, now);
 }
 
+// A first handshake datagram of an address that has no session here. Without a cookie it is
+// answered and forgotten; with one that is ours, it waits for its network's turn.
 void SealServer::on_stranger(const Address& from, const seal::Opening& opening, MonoTime now) {
   const auto cookie = seal::cookie_of(opening.body);
   if (!cookie) {
-    // Perhaps of a session before the server began anew.
+    // Perhaps a record of a session from before this server restarted.
     seal::Bytes rest = opening.body;
     const auto record = seal::take_record(rest);
     if (record && record->epoch > 0) return answer_unknown(from, opening.id, now);
@@ -103,26 +108,65 @@ void SealServer::on_stranger(const Address& from, const seal::Opening& opening, 
     listener_ = std::make_unique<SealChannel>(*context_, SealChannel::Side::kServer, sink_);
   listener_->set_id(opening.id);
   listener_->set_peer(from);
-  if (!cookie->empty() && !may(cookies_, from, now)) return;
-  const bool is_proven = !cookie->empty() && is_cookie(*listener_, cookie->data(), cookie->size());
-  if (!cookie->empty() && !is_proven) reject(SealReject::kBadCookie);
-  if (!may(is_proven ? begun_ : strangers_, from, now)) return;
-  if (is_proven && !make_handshake_place(from)) return reject(SealReject::kFull);
-  if (!listener_->listen(opening.body, seal::kIdBytes + opening.body.size())) {
-    if (is_proven)
-      reject(SealReject::kNoAgreement);
-    else
-      ++counters_.cookies_given;
-    return;
+  if (!cookie->empty()) {
+    if (!may_newcomer(cookies_, from, now)) return;
+    if (is_cookie(*listener_, cookie->data(), cookie->size()))
+      return queue_newcomer(from, opening, now);
+    reject(SealReject::kBadCookie);
   }
+  if (!may_newcomer(strangers_, from, now)) return;
+  if (!listener_->listen(opening.body, seal::kIdBytes + opening.body.size()))
+    ++counters_.cookies_given;
+}
+
+void SealServer::queue_newcomer(const Address& from, const seal::Opening& opening, MonoTime now) {
+  switch (newcomers_.push(from, opening.id, opening.body, recent_.contains(from, now), now)) {
+    case NewcomerQueue::Pushed::kWaitsAlready:
+      return;
+    case NewcomerQueue::Pushed::kTooLong:
+      return reject(SealReject::kMalformed);
+    case NewcomerQueue::Pushed::kOtherDropped:
+      reject(SealReject::kCrowdRate);
+      break;
+    case NewcomerQueue::Pushed::kWaits:
+      break;
+  }
+  // If there is no flood, its turn is now.
+  next_tick_ = MonoTime();
+  tick(now);
+}
+
+// A few at a time: poses are forwarded in between.
+bool SealServer::serve_newcomers(MonoTime now) {
+  constexpr int kAtOnce = 2;
+  for (std::size_t late = newcomers_.drop_late(now); late > 0; --late)
+    reject(SealReject::kTimedOut);
+  for (int i = 0; i < kAtOnce && newcomers_.size() > 0; ++i) {
+    const NewcomerQueue::Newcomer* next = nullptr;
+    if (newcomers_.has_known() && begun_known_.take(1.0, now))
+      next = newcomers_.pop_known();
+    else if (begun_.take(1.0, now))
+      next = newcomers_.pop();
+    if (next == nullptr) break;
+    begin_handshake(*next, now);
+  }
+  return newcomers_.size() > 0;
+}
+
+void SealServer::begin_handshake(const NewcomerQueue::Newcomer& newcomer, MonoTime now) {
+  if (!listener_)
+    listener_ = std::make_unique<SealChannel>(*context_, SealChannel::Side::kServer, sink_);
+  listener_->set_id(newcomer.id);
+  listener_->set_peer(newcomer.from);
+  if (!listener_->listen(newcomer.records(), seal::kIdBytes + newcomer.size))
+    return refuse(newcomer.from, "", SealReject::kNoAgreement);
+  make_handshake_place();
   ++counters_.handshakes_begun;
   Handshake handshake;
   handshake.channel = std::move(listener_);
   handshake.since = now;
   handshakes_.push_back(std::move(handshake));
-  next_tick_ = MonoTime();
   go_on(handshakes_.size() - 1, {}, now);
-  tick(now);
 }
 
 void SealServer::go_on(std::size_t index, seal::Bytes records, MonoTime now) {
@@ -136,7 +180,7 @@ void SealServer::go_on(std::size_t index, seal::Bytes records, MonoTime now) {
     case SealChannel::Progress::kDone:
       return finish(index, now);
     case SealChannel::Progress::kFailed:
-      reject(SealReject::kNoAgreement);
+      refuse(channel.peer(), handshake.key.name.view(), SealReject::kNoAgreement);
       return drop_handshake(index);
     case SealChannel::Progress::kUnderWay:
       break;
@@ -145,7 +189,7 @@ void SealServer::go_on(std::size_t index, seal::Bytes records, MonoTime now) {
   bool has_proof = false;
   while (const auto record = seal::take_record(records)) has_proof |= record->epoch == 1;
   if (!has_proof || !channel.awaits_proof()) return;
-  if (handshake.is_known) reject(SealReject::kWrongKey);
+  if (handshake.is_known) refuse(channel.peer(), handshake.key.name.view(), SealReject::kWrongKey);
   std::array<std::uint8_t, seal::kIdBytes + kDecryptError.size()> out;
   seal::write_opening(channel.id(), seal::Form::kRecords, out);
   std::copy(kDecryptError.begin(), kDecryptError.end(), out.begin() + seal::kIdBytes);
@@ -157,16 +201,18 @@ void SealServer::finish(std::size_t index, MonoTime now) {
   Handshake& handshake = handshakes_[index];
   // The key may have been taken back while the handshake was under way.
   if (handshake.is_known && !is_in_ring(handshake.key, handshake.is_invited)) {
-    reject(SealReject::kWrongKey);
+    refuse(handshake.channel->peer(), handshake.key.name.view(), SealReject::kWrongKey);
     return drop_handshake(index);
   }
   Peer peer;
   peer.key = handshake.key;
+  peer.house = handshake.house;
   peer.is_invited = handshake.is_invited;
   if (!handshake.is_known) {  // no key: a certificate
-    const auto name = GuestId::parse(handshake.channel->certificate_name());
+    const std::string common_name = handshake.channel->certificate_name();
+    const auto name = GuestId::parse(common_name);
     if (!name) {
-      reject(SealReject::kUnknownName);
+      refuse(handshake.channel->peer(), common_name, SealReject::kUnknownName);
       return drop_handshake(index);
     }
     peer.key.name = *name;
@@ -175,14 +221,17 @@ void SealServer::finish(std::size_t index, MonoTime now) {
   peer.channel = std::move(handshake.channel);
   peer.proven = peer.channel->peer();
   peer.last_heard = now;
+  recent_.note(peer.key.name.view(), peer.proven, now);
   drop_handshake(index);
   const PeerId id = peer.channel->id();
-  if (peers_.contains(id) || !make_place(peer, now)) return reject(SealReject::kFull);
+  if (peers_.contains(id) || rekeyed_.contains(id) || !make_place(peer, now))
+    return refuse(peer.proven, peer.key.name.view(), SealReject::kFull);
   ++counters_.handshakes_done;
   peers_.emplace(id, std::move(peer));
 }
 
-// Where there is no place left, for this key or for anybody, who has been silent longest makes it.
+// Makes room for a peer: if its key or the server has no place left, the peer that has been silent
+// longest leaves. The key of the server's own machine has no limit of its own.
 bool SealServer::make_place(const Peer& comer, MonoTime now) {
   std::size_t of_key = 0;
   const std::pair<const PeerId, Peer>* oldest = nullptr;
@@ -195,7 +244,10 @@ bool SealServer::make_place(const Peer& comer, MonoTime now) {
     if (oldest_of_key == nullptr || entry.second.last_heard < oldest_of_key->second.last_heard)
       oldest_of_key = &entry;
   }
-  const std::size_t most = comer.is_invited ? limits_.peers_per_invitation : limits_.peers_per_key;
+  const std::size_t most = comer.is_invited                   ? limits_.peers_per_invitation
+                           : comer.key.is_local()             ? limits_.peers
+                           : comer.key.kind == KeyKind::kRoom ? limits_.peers_per_shared_key
+                                                              : limits_.peers_per_key;
   const bool is_key_full = of_key >= most;
   if (!is_key_full && peers_.size() < limits_.peers) return true;
   const auto* goes = is_key_full ? oldest_of_key : oldest;
@@ -204,27 +256,14 @@ bool SealServer::make_place(const Peer& comer, MonoTime now) {
   return true;
 }
 
-// One network has so many under way and no more; where all places are taken, the oldest of the
-// network that has most makes room.
-bool SealServer::make_handshake_place(const Address& from) {
-  const auto of = [this](const Address& address) {
-    return std::count_if(handshakes_.begin(), handshakes_.end(), [&](const Handshake& h) {
-      return h.channel->peer().network() == address.network();
-    });
-  };
-  if (static_cast<std::size_t>(of(from)) >= limits_.handshakes_per_network) return false;
-  if (handshakes_.size() < limits_.handshakes) return true;
-  std::size_t goes = 0;
-  std::ptrdiff_t most = 0;
-  for (std::size_t i = 0; i < handshakes_.size(); ++i) {  // the oldest first
-    const auto count = of(handshakes_[i].channel->peer());
-    if (count <= most) continue;
-    most = count;
-    goes = i;
-  }
+// Makes room for a handshake: the network that holds most places gives up its oldest one.
+void SealServer::make_handshake_place() {
+  if (handshakes_.size() < limits_.handshakes) return;
+  handshake_networks_.clear();
+  for (const Handshake& handshake : handshakes_)  // the oldest first
+    handshake_networks_.push_back(NetworkLevels::of(handshake.channel->peer()));
   reject(SealReject::kTimedOut);
-  drop_handshake(goes);
-  return true;
+  drop_handshake(turns_.oldest_of_most_crowded(handshake_networks_));
 }
 
 void SealServer::drop_handshake(std::size_t index) {

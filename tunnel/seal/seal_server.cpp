@@ -7,6 +7,9 @@
 namespace dance {
 namespace {
 
+// During a flood, beyond the common rate.
+constexpr double kKnownDatagramsPerSecond = 2000.0, kKnownDatagramBurst = 1000.0;
+constexpr Duration kTickOfNewcomers = Duration::ms(2);
 constexpr Duration kTickOfHandshakes = Duration::ms(50);
 constexpr Duration kTickOfPeers = Duration::s(1);
 constexpr Duration kSecretsStand = Duration::s(60);
@@ -20,11 +23,11 @@ void SealServer::CountingSink::send(const Address& to, std::span<const std::uint
 }
 
 Result<std::unique_ptr<SealServer>> SealServer::make(
-    const SealLimits& limits, std::shared_ptr<const KeyRing> keys,
+    const SealLimits& limits, const PrivateKey& identity, std::shared_ptr<const KeyRing> keys,
     const std::optional<SealCertificates>& certificates, RandomU64 random, Handlers handlers,
     DatagramSink& sink) {
-  auto server = std::unique_ptr<SealServer>(
-      new SealServer(limits, std::move(keys), std::move(random), std::move(handlers), sink));
+  auto server = std::unique_ptr<SealServer>(new SealServer(
+      limits, identity, std::move(keys), std::move(random), std::move(handlers), sink));
   SealServer* self = server.get();
   SealContext::Cookies cookies;
   cookies.make = [self](ssl_st* ssl, std::uint8_t* out) {
@@ -35,14 +38,19 @@ Result<std::unique_ptr<SealServer>> SealServer::make(
   };
   DANCE_TRY(server->context_,
             SealContext::for_server(
+                identity.public_key(),
                 [self](ssl_st* ssl, std::string_view name) { return self->find_key(ssl, name); },
                 std::move(cookies), certificates));
   return server;
 }
 
-SealServer::SealServer(const SealLimits& limits, std::shared_ptr<const KeyRing> keys,
-                       RandomU64 random, Handlers handlers, DatagramSink& sink)
+SealServer::SealServer(const SealLimits& limits, const PrivateKey& identity,
+                       std::shared_ptr<const KeyRing> keys, RandomU64 random, Handlers handlers,
+                       DatagramSink& sink)
     : limits_(limits),
+      identity_(identity),
+      server_key_(identity.public_key()),
+      nobody_(PrivateKey::make().public_key()),
       keys_(std::move(keys)),
       random_(std::move(random)),
       handlers_(std::move(handlers)),
@@ -50,9 +58,15 @@ SealServer::SealServer(const SealLimits& limits, std::shared_ptr<const KeyRing> 
       strangers_(limits.strangers, random_()),
       notices_(limits.notices, random_()),
       cookies_(limits.cookies, random_()),
-      begun_(limits.begun, random_()) {
+      newcomers_(limits.newcomers, random_()),
+      turns_(random_()),
+      recent_(random_()),
+      begun_(limits.handshakes_per_second, limits.handshake_burst),
+      begun_known_(limits.handshakes_per_second, limits.handshake_burst),
+      known_datagrams_(kKnownDatagramsPerSecond, kKnownDatagramBurst) {
   peers_.reserve(limits.peers);
   handshakes_.reserve(limits.handshakes);
+  handshake_networks_.reserve(limits.handshakes);
   for (auto& secret : secrets_)
     for (std::uint64_t& word : secret) word = random_();
 }
@@ -75,6 +89,22 @@ bool SealServer::may(SourceLimits& limits, const Address& from, MonoTime now) {
   return false;
 }
 
+bool SealServer::may_newcomer(SourceLimits& limits, const Address& from, MonoTime now) {
+  const SourceLimits::Answer answer = limits.take(from, now);
+  if (answer == SourceLimits::Answer::kYes) return true;
+  if (answer == SourceLimits::Answer::kAllHadEnough && recent_.contains(from, now) &&
+      known_datagrams_.take(1.0, now))
+    return true;
+  reject(answer == SourceLimits::Answer::kAllHadEnough ? SealReject::kCrowdRate
+                                                       : SealReject::kStrangerRate);
+  return false;
+}
+
+void SealServer::refuse(const Address& from, std::string_view name, SealReject cause) {
+  reject(cause);
+  if (handlers_.on_refused) handlers_.on_refused(from, name, cause);
+}
+
 void SealServer::receive(const Address& from, seal::Bytes datagram, MonoTime received,
                          MonoTime now) {
   ++counters_.datagrams_in;
@@ -94,38 +124,44 @@ void SealServer::receive(const Address& from, seal::Bytes datagram, MonoTime rec
 
 void SealServer::on_compact(const Address& from, const seal::Opening& opening, MonoTime received,
                             MonoTime now) {
-  const auto found = peers_.find(opening.id);
-  if (found == peers_.end()) return answer_unknown(from, opening.id, now);
-  Peer& peer = found->second;
+  const auto session = find_session(opening.id);
+  if (!session) return answer_unknown(from, opening.id, now);
+  Peer& peer = *session->peer;
+  const PeerId id = session->id;
   seal::Bytes plain;
-  switch (peer.channel->open(opening.body, plain)) {
+  switch (session->channel->open(opening.body, plain)) {
     case SealChannel::Opened::kForged:
       return reject(SealReject::kForged);
     case SealChannel::Opened::kReplayed:
       return reject(SealReject::kReplayed);
     case SealChannel::Opened::kClosed:
-      return end(opening.id);
+      return session->is_current() ? end(id) : forget_previous(peer);
     case SealChannel::Opened::kPlain:
       break;
   }
   peer.last_heard = now;
   // Only what is newer than all before says where the peer is now.
-  if (peer.channel->is_newest() && peer.channel->peer() != from && !on_moved(peer, from)) return;
+  if (session->is_current() && peer.channel->is_newest() && peer.channel->peer() != from &&
+      !on_moved(peer, from))
+    return;
   if (is_path_answer(peer, from, plain)) return;
   if (!peer.is_proven && peer.channel->peer() == from)
-    ask_path(opening.id, peer, seal::kIdBytes + opening.body.size(), now);
-  if (peer.is_invited) return on_invited(opening.id, peer, plain);
-  handlers_.on_datagram(opening.id, peer.key, plain, received, now);
+    ask_path(id, peer, seal::kIdBytes + opening.body.size(), now);
+  if (peer.is_invited || plain[0] == seal::kRekey) {
+    if (!peer.control.take(1.0, now)) return reject(SealReject::kControlRate);
+    return peer.is_invited ? on_invited(id, peer, plain) : on_rekey(id, peer, plain, now);
+  }
+  handlers_.on_datagram(id, peer.key, plain, received, now);
 }
 
-// An invitation opens no room: it only lets a house name the key that it will come with.
+// An invitation opens no room: it only lets the house become the guest that was invited.
 void SealServer::on_invited(PeerId id, const Peer& peer, seal::Bytes plain) {
-  if (plain.size() != seal::kBindingWishBytes || plain[0] != seal::kBindingWish)
+  if (plain.size() != seal::kBindingRequestBytes || plain[0] != seal::kBindingRequest)
     return reject(SealReject::kMalformed);
   const KeyEntry key = peer.key;  // the answer may end the peer
-  const PresharedKey lasting = PresharedKey::of(plain.subspan<1, PresharedKey::kBytes>());
+  const PublicKey house = peer.house;
   if (handlers_.on_binding)
-    handlers_.on_binding(id, key, lasting);
+    handlers_.on_binding(id, key, house);
   else
     answer_binding(id, Binding::kNotHere);
 }
@@ -139,7 +175,7 @@ void SealServer::answer_binding(PeerId to, Binding binding) {
 // To another address the peer goes on at once, and hears at most three times what it says until it
 // has shown that it hears there: else any guest could aim a room's poses at anybody.
 bool SealServer::on_moved(Peer& peer, const Address& from) {
-  if (peer.key.is_local && !from.is_loopback()) {
+  if (peer.key.is_local() && !from.is_loopback()) {
     reject(SealReject::kNotLocal);
     return false;
   }
@@ -211,7 +247,12 @@ void SealServer::send(PeerId to, seal::Bytes plain) {
 }
 
 void SealServer::end(PeerId peer) {
-  if (peers_.erase(peer) > 0 && handlers_.on_end) handlers_.on_end(peer);
+  const auto found = peers_.find(peer);
+  if (found == peers_.end()) return;
+  forget_previous(found->second);
+  rekeyed_.erase(found->second.channel->id());
+  peers_.erase(found);
+  if (handlers_.on_end) handlers_.on_end(peer);
 }
 
 Address SealServer::address_of(PeerId peer) const {
@@ -226,16 +267,21 @@ bool SealServer::is_in_ring(const KeyEntry& key, bool is_invited) const {
   }
   const KeyEntry* entry = keys_->find(key.name.view());
   return entry != nullptr && entry->kind == key.kind && entry->room == key.room &&
-         entry->key == key.key && entry->is_local == key.is_local;
+         entry->key == key.key && entry->local_key == key.local_key;
 }
 
 void SealServer::set_keys(std::shared_ptr<const KeyRing> keys) {
   keys_ = std::move(keys);
   std::vector<PeerId> gone;
-  for (const auto& [id, peer] : peers_) {
-    if (!peer.has_certificate && !is_in_ring(peer.key, peer.is_invited)) gone.push_back(id);
+  for (auto& [id, peer] : peers_) {
+    if (peer.has_certificate) continue;
+    if (!is_in_ring(peer.key, peer.is_invited))
+      gone.push_back(id);
+    else if (!peer.is_invited)
+      peer.key.until_s = keys_->find(peer.key.name.view())->until_s;
   }
   for (const PeerId id : gone) {
+    if (handlers_.on_key_removed) handlers_.on_key_removed(id, peers_.at(id).key);
     peers_.at(id).channel->close();
     end(id);
   }
@@ -243,6 +289,8 @@ void SealServer::set_keys(std::shared_ptr<const KeyRing> keys) {
 
 MonoTime SealServer::tick(MonoTime now) {
   if (now < next_tick_) return next_tick_;
+  const bool do_newcomers_wait = serve_newcomers(now);
+  if (do_newcomers_wait && now < next_sweep_) return next_tick_ = now + kTickOfNewcomers;
   if (!secrets_since_.is_set()) secrets_since_ = now;
   if (now - secrets_since_ > kSecretsStand) {
     secrets_[1] = secrets_[0];
@@ -261,13 +309,17 @@ MonoTime SealServer::tick(MonoTime now) {
     }
   }
   std::vector<PeerId> silent;
-  for (const auto& [id, peer] : peers_)
+  for (auto& [id, peer] : peers_) {
+    if (peer.previous && now > peer.previous_until) forget_previous(peer);
     if (now - peer.last_heard > (peer.is_invited ? limits_.invited_silence : limits_.silence))
       silent.push_back(id);
+  }
   for (const PeerId id : silent) end(id);
-  next_tick_ = !handshakes_.empty() ? now + kTickOfHandshakes
-               : !peers_.empty()    ? now + kTickOfPeers
-                                    : MonoTime();
+  next_sweep_ = now + kTickOfHandshakes;
+  next_tick_ = do_newcomers_wait      ? now + kTickOfNewcomers
+               : !handshakes_.empty() ? next_sweep_
+               : !peers_.empty()      ? now + kTickOfPeers
+                                      : MonoTime();
   return next_tick_;
 }
 

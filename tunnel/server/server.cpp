@@ -5,6 +5,7 @@
 
 #include "core/base/deadline.h"
 #include "core/net/secure_random.h"
+#include "tunnel/seal/keys/utc_text.h"
 
 namespace dance {
 namespace {
@@ -19,15 +20,18 @@ Access access_of(const KeyEntry& key) {
   access.name = key.name;
   access.room = key.room;
   access.any_name = key.kind == KeyKind::kRoom;
-  access.role = key.kind == KeyKind::kListener               ? Role::kListener
-                : key.kind == KeyKind::kHost || key.is_local ? Role::kHost
-                                                             : Role::kGuest;
+  access.is_local = key.is_local();
+  access.until_s = key.until_s;
+  access.is_expired = key.until_s && key.has_expired(utc_now_s());
+  access.role = key.kind == KeyKind::kListener                 ? Role::kListener
+                : key.kind == KeyKind::kHost || key.is_local() ? Role::kHost
+                                                               : Role::kGuest;
   return access;
 }
 
 Result<std::unique_ptr<Server>> Server::open(const Address& local, const ServerOptions& options,
                                              Poller& poller) {
-  DANCE_TRY(UdpSocket socket, UdpSocket::bind(local));
+  DANCE_TRY(UdpSocket socket, UdpSocket::serve(local));
   auto server = std::unique_ptr<Server>(
       new Server(std::move(socket), options.limits, options.cluster, poller));
   SealServer::Handlers handlers;
@@ -38,14 +42,31 @@ Result<std::unique_ptr<Server>> Server::open(const Address& local, const ServerO
   };
   handlers.on_end = [core = &server->core_](PeerId peer) { core->forget(peer); };
   handlers.on_binding = options.on_binding;
+  if (options.on_audit) {
+    handlers.on_refused = [on_audit = options.on_audit](const Address& from, std::string_view name,
+                                                        SealReject cause) {
+      on_audit(from, {.kind = AuditKind::kRefused,
+                      .key = name,
+                      .cause = kSealRejectNames[static_cast<std::size_t>(cause)]});
+    };
+    handlers.on_key_removed = [self = server.get(), on_audit = options.on_audit](
+                                  PeerId peer, const KeyEntry& key) {
+      on_audit(self->door_->address_of(peer),
+               {.kind = AuditKind::kRemoved, .key = key.name.view(), .cause = "key_removed"});
+    };
+    server->core_.set_on_audit(
+        [self = server.get(), on_audit = options.on_audit](PeerId peer, const AuditEvent& event) {
+          on_audit(self->door_->address_of(peer), event);
+        });
+  }
   SealLimits seal = options.seal;
-  // A link that begins anew has two for a while.
+  // A link that reconnects has two for a while.
   seal.peers = std::max(seal.peers, 2 * options.limits.sessions);
-  // One key may be a whole room's, or all of a crowd's.
-  seal.peers_per_key = std::max(seal.peers_per_key, options.limits.sessions);
+  seal.peers_per_key = std::max(seal.peers_per_key, 2 * options.limits.sessions_per_key);
+  seal.peers_per_shared_key = std::max(seal.peers_per_shared_key, options.limits.sessions);
   DANCE_TRY(server->door_,
-            SealServer::make(seal, options.keys, options.certificates, secure_random_u64,
-                             std::move(handlers), server->socket_));
+            SealServer::make(seal, options.identity, options.keys, options.certificates,
+                             secure_random_u64, std::move(handlers), server->socket_));
   server->sealed_.door = server->door_.get();
   server->core_.set_reserved([self = server.get()](const GuestId& name) {
     return self->door_->keys().is_own_name(name.view());

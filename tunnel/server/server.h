@@ -25,14 +25,17 @@ constexpr std::uint16_t kDefaultServerPort = 7400;
 struct ServerOptions {
   ServerLimits limits;
   SealLimits seal;
+  PrivateKey identity = PrivateKey::make();
   std::shared_ptr<const KeyRing> keys;  // not nullptr
   std::optional<SealCertificates> certificates;
   ClusterNode* cluster = nullptr;  // settled; must outlive the server. nullptr: it stands alone
   // As SealServer's; not set: invitations open nothing here.
-  std::function<void(PeerId, const KeyEntry&, const PresharedKey& lasting)> on_binding;
+  std::function<void(PeerId, const KeyEntry&, const PublicKey& house)> on_binding;
+  // Receives joins, refusals and removals; not set: they are not logged.
+  std::function<void(const Address& from, const AuditEvent&)> on_audit;
 };
 
-// What a key lets its holder do.
+// The current rights of a key's holder.
 Access access_of(const KeyEntry& key);
 
 class Server {
@@ -45,7 +48,7 @@ class Server {
 
   // From now on these keys count.
   void set_keys(std::shared_ptr<const KeyRing> keys);
-  // What has become of a house's wish, by on_binding.
+  // Result of a house's request, see on_binding.
   void answer_binding(PeerId peer, Binding binding);
   // Tells every link, and the cluster, so that none has to notice the silence.
   void say_goodbye();

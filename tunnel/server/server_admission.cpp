@@ -9,8 +9,6 @@ namespace dance {
 namespace {
 
 constexpr std::uint64_t kLongestOvertaking_us = 60'000'000;
-// Servers of a cluster tell that they live several times as often.
-constexpr Duration kRemoteSilence = Duration::ms(1000);
 // Reading what lasts takes milliseconds, and seconds where NATS has just lost a server. Less than
 // guests have to come back in, who would seem to leave otherwise.
 constexpr Duration kSettlesWithin = Duration::s(4);
@@ -43,29 +41,6 @@ std::optional<std::size_t> ServerAdmission::find_room(const wire::RoomName& name
   return found != server_.by_room.end() ? std::optional(found->second) : std::nullopt;
 }
 
-void ServerAdmission::refuse(PeerId to, std::uint64_t nonce, wire::Refusal cause,
-                             const GuestId& guest) {
-  server_.reject(cause == wire::Refusal::kVersion ? ServerReject::kVersion
-                                                  : ServerReject::kRefused);
-  wire::RefusalNotice notice;
-  notice.nonce = nonce;
-  notice.cause = cause;
-  notice.guest = guest;
-  std::array<std::uint8_t, 64> out;
-  server_.send(to, {out.data(), wire::build(notice, out)});
-}
-
-void ServerAdmission::tell_removed(PeerId to, std::uint64_t nonce, Duration for_how_long) {
-  if (nonce != 0) server_.reject(ServerReject::kRefused);
-  wire::RefusalNotice notice;
-  notice.nonce = nonce;
-  notice.cause = wire::Refusal::kRemoved;
-  notice.seconds = static_cast<std::uint16_t>(
-      std::clamp<std::int64_t>((for_how_long.count_ms() + 999) / 1000, 1, wire::kMostRemoved_s));
-  std::array<std::uint8_t, 64> out;
-  server_.send(to, {out.data(), wire::build(notice, out)});
-}
-
 void ServerAdmission::on_hello(PeerId from, const Access& access, wire::Bytes body,
                                MonoTime received, MonoTime now) {
   const std::size_t place = std::hash<std::string_view>()(access.name.view()) % hellos_.size();
@@ -73,9 +48,9 @@ void ServerAdmission::on_hello(PeerId from, const Access& access, wire::Bytes bo
   wire::HelloProblem problem;
   const auto hello = wire::parse_hello(body, problem);
   if (!hello && problem.is_other_version)
-    return refuse(from, problem.nonce, wire::Refusal::kVersion, {});
+    return refuse(from, access.name, {}, problem.nonce, wire::Refusal::kVersion, {});
   if (!hello && problem.is_bad_name)
-    return refuse(from, problem.nonce, wire::Refusal::kBadName, {});
+    return refuse(from, access.name, {}, problem.nonce, wire::Refusal::kBadName, {});
   if (!hello) return server_.reject(ServerReject::kMalformed);
 
   auto existing = find_token(hello->token, access.name);
@@ -98,12 +73,14 @@ void ServerAdmission::on_hello(PeerId from, const Access& access, wire::Bytes bo
   }
   auto room = find_room(hello->room);
   if (const auto objection = objection_to(*hello, access, existing, room, now)) {
-    if (objection->cause == wire::Refusal::kRemoved)
-      return tell_removed(from, hello->nonce, objection->removed_for);
-    return refuse(from, hello->nonce, objection->cause, objection->guest);
+    if (objection->cause == wire::Refusal::kRemoved) {
+      audit_refusal(from, access.name, hello->room, objection->cause);
+      return send_removal_notice(from, hello->nonce, objection->removed_for);
+    }
+    return refuse(from, access.name, hello->room, hello->nonce, objection->cause, objection->guest);
   }
 
-  if (!room) room = open_room(*hello, now);
+  if (!room) room = open_room(access, *hello, now);
   const std::size_t index = existing ? *existing : open_session(from, access, *hello, *room);
   ServerSession& session = server_.sessions[index];
   const bool is_moved = session.peer != from;
@@ -114,8 +91,12 @@ void ServerAdmission::on_hello(PeerId from, const Access& access, wire::Bytes bo
   settle_access(index, access);
   session.last_heard = now;
   session.hello_time_us = hello->link_time_us;
-  session.version = hello->version;
-  settle_guests(index, *hello);
+  const bool has_new_guests = settle_guests(index, *hello);
+  if (!existing || has_new_guests)
+    server_.audit(from, {.kind = AuditKind::kJoined,
+                         .key = access.name.view(),
+                         .room = hello->room,
+                         .guests = hello->guests});
   if (!existing || is_moved) session.interest.default_divider = hello->default_divider;
   interest_.settle(index, now);
   welcome(index, *hello, received, now);
@@ -130,7 +111,6 @@ void ServerAdmission::welcome(std::size_t index, const wire::Hello& hello, MonoT
   const ServerSession& session = server_.sessions[index];
   const ServerRoom& room = server_.rooms[session.room];
   wire::Welcome welcome;
-  welcome.version = hello.version;
   welcome.nonce = hello.nonce;
   welcome.epoch = session.epoch;
   welcome.link_time_us = hello.link_time_us;
@@ -147,74 +127,14 @@ void ServerAdmission::welcome(std::size_t index, const wire::Hello& hello, MonoT
   server_.send(session.peer, {out.data(), size});
 }
 
-std::optional<ServerAdmission::Objection> ServerAdmission::objection_to(
-    const wire::Hello& hello, const Access& access, std::optional<std::size_t> existing,
-    std::optional<std::size_t> room, MonoTime now) const {
-  if (!access.may_enter(hello.room)) return Objection{wire::Refusal::kNotAllowedRoom, {}};
-  if (const auto until =
-          server_.bans.refused_until(hello.room, hello.token, access, hello.guests, now))
-    return Objection{wire::Refusal::kRemoved, {}, *until - now};
-  if (!hello.guests.empty() && !may_have_guests(access))
-    return Objection{wire::Refusal::kOnlyListens, {}};
-  for (const GuestId& guest : hello.guests) {
-    const bool is_others =
-        access.any_name && access.role != Role::kHost && is_reserved_ && is_reserved_(guest);
-    if (is_others || !access.may_use_name(guest))
-      return Objection{wire::Refusal::kNotAllowedName, guest};
-  }
-  if (!room) {
-    if (std::all_of(server_.rooms.begin(), server_.rooms.end(),
-                    [](const auto& r) { return r.in_use; }))
-      return Objection{wire::Refusal::kServerFull, {}};
-  } else if (!hello.codecs.contains(server_.rooms[*room].codec)) {
-    return Objection{wire::Refusal::kCodec, {}};
-  }
-  if (!existing && server_.by_peer.size() == server_.limits.sessions)
-    return Objection{wire::Refusal::kServerFull, {}};
-  if (room && hello.guests.empty()) {
-    const auto& members = server_.rooms[*room].members;
-    const auto listeners = std::count_if(members.begin(), members.end(), [&](std::size_t member) {
-      return member != existing && !server_.sessions[member].is_remote() &&
-             server_.sessions[member].slots.empty();
-    });
-    if (static_cast<std::size_t>(listeners) >= server_.limits.listeners_per_room)
-      return Objection{wire::Refusal::kListenersFull, {}};
-  }
-  // Other guests; those of links of this server; slots for such.
-  std::size_t all = 0, others = 0, taken = 0;
-  if (room) {
-    const ServerRoom& there = server_.rooms[*room];
-    for (std::size_t slot = 0; slot < there.guests.size(); ++slot) {
-      const ServerGuest& guest = there.guests[slot];
-      if (!guest.in_use || (existing && guest.owner == *existing)) continue;
-      if (hello.guests.contains(guest.id) && may_take_over(guest, hello.token, now)) continue;
-      if (hello.guests.contains(guest.id)) return Objection{wire::Refusal::kNameTaken, guest.id};
-      ++all;
-      others += server_.is_local(guest) ? 1 : 0;
-      taken += slot < wire::kSlotsPerPage ? 1 : 0;
-    }
-  }
-  if (others + hello.guests.size() > server_.limits.guests_per_room ||
-      all + hello.guests.size() > wire::kMaxGuestsPerRoom ||
-      taken + hello.guests.size() > wire::kSlotsPerPage)
-    return Objection{wire::Refusal::kRoomFull, {}};
-  return std::nullopt;
-}
-
-// Of a cluster: its link has come here from another server, or that server is no more.
-bool ServerAdmission::may_take_over(const ServerGuest& guest, std::uint64_t link_token,
-                                    MonoTime now) const {
-  const ServerSession& owner = server_.sessions[guest.owner];
-  return owner.is_remote() &&
-         (guest.link_token == link_token || now - owner.last_heard > kRemoteSilence);
-}
-
-std::size_t ServerAdmission::open_room(const wire::Hello& hello, MonoTime now) {
+std::size_t ServerAdmission::open_room(const Access& access, const wire::Hello& hello,
+                                       MonoTime now) {
   const auto free =
       std::find_if(server_.rooms.begin(), server_.rooms.end(), [](auto& r) { return !r.in_use; });
   DANCE_ASSERT(free != server_.rooms.end());
   free->in_use = true;
   free->name = hello.room;
+  free->opened_by = access.name;
   const auto index = static_cast<std::size_t>(free - server_.rooms.begin());
   server_.by_room.emplace(free->name, index);
   free->codec = hello.codecs[0];
@@ -268,6 +188,7 @@ std::size_t ServerAdmission::open_session(PeerId peer, const Access& access,
   free->in_use = true;
   free->peer = peer;
   free->access = access;
+  free->key_use = server_.keys.join(access, server_.limits);
   if (access.role == Role::kHost) count_hosts(server_.rooms[room], 1);
   free->token = hello.token;
   free->epoch = new_epoch();
@@ -297,30 +218,35 @@ void ServerAdmission::settle_access(std::size_t index, const Access& access) {
   session.access = access;
 }
 
-// Makes the session's guests those of the hello, in the hello's order.
-void ServerAdmission::settle_guests(std::size_t index, const wire::Hello& hello) {
+// Makes the session's guests those of the hello, in the hello's order. Returns whether one of them
+// is new to the session.
+bool ServerAdmission::settle_guests(std::size_t index, const wire::Hello& hello) {
   ServerSession& session = server_.sessions[index];
   ServerRoom& room = server_.rooms[session.room];
   const auto before = session.slots;
   for (const std::uint8_t slot : before)
     if (!hello.guests.contains(room.guests[slot].id)) slots_.remove_guest(session.room, slot);
   session.slots.clear();
+  bool has_new_guests = false;
   for (const GuestId& id : hello.guests) {
     const auto same = std::find_if(before.begin(), before.end(), [&](std::uint8_t slot) {
       return room.guests[slot].in_use && room.guests[slot].id == id;
     });
     if (same == before.end()) {
       bring_guest(index, id, hello.token);
+      has_new_guests = true;
     } else {
       const bool pushed = session.slots.try_push(*same);
       DANCE_ASSERT(pushed);
     }
   }
+  return has_new_guests;
 }
 
 void ServerAdmission::bring_guest(std::size_t index, const GuestId& id, std::uint64_t link_token) {
   const std::size_t room_index = server_.sessions[index].room;
   ServerRoom& room = server_.rooms[room_index];
+  const OwnerKey key = owner_key_of(server_.sessions[index].access);
   const auto there = ServerSlots::find(room, id);
   if (there && room.guests[*there].link_token == link_token) {
     slots_.move_guest(room, *there, index);
@@ -329,14 +255,13 @@ void ServerAdmission::bring_guest(std::size_t index, const GuestId& id, std::uin
       server_.sessions[room.guests[*there].owner].slots.erase(*there);
       slots_.remove_guest(room_index, *there);
     }
-    const bool added = slots_.add_guest(index, id, link_token).has_value();
+    const bool added = slots_.add_guest(index, id, link_token, key).has_value();
     DANCE_ASSERT(added);
   }
-  // The newest of the session's.
-  if (server_.cluster != nullptr) {
-    const auto& slots = server_.sessions[index].slots;
-    server_.cluster->on_guest_came(room, room.guests[slots[slots.size() - 1]]);
-  }
+  const auto& slots = server_.sessions[index].slots;
+  ServerGuest& newest = room.guests[slots[slots.size() - 1]];
+  newest.key = key;  // of a guest that moved here, this server has checked it now
+  if (server_.cluster != nullptr) server_.cluster->on_guest_came(room, newest);
 }
 
 std::optional<std::size_t> ServerAdmission::open_remote(std::size_t room_index, ServerId server,
@@ -367,7 +292,10 @@ void ServerAdmission::drop(std::size_t index) {
   ServerRoom& room = server_.rooms[session.room];
   for (const std::uint8_t slot : session.slots) slots_.remove_guest(session.room, slot);
   if (!session.is_remote() && session.access.role == Role::kHost) count_hosts(room, -1);
-  if (session.is_remote()) --room.remote_count;
+  if (session.is_remote())
+    --room.remote_count;
+  else
+    server_.keys.leave(session.key_use);
   if (session.is_remote() && server_.remote_receivers[session.remote].has_host) --room.remote_hosts;
   std::erase(room.members, index);
   std::erase(server_.newcomers, index);

@@ -25,7 +25,7 @@ class ServerAdmission {
                 MonoTime now);
   void drop(std::size_t session);
   // That a host has removed the guests of this peer; the nonce is that of its hello, or 0.
-  void tell_removed(PeerId to, std::uint64_t nonce, Duration for_how_long);
+  void send_removal_notice(PeerId to, std::uint64_t nonce, Duration for_how_long);
 
   // For ServerRemotes: another server of the cluster in a room, as a session; nothing where there
   // is no place for it.
@@ -46,17 +46,26 @@ class ServerAdmission {
   std::optional<Objection> objection_to(const wire::Hello& hello, const Access& access,
                                         std::optional<std::size_t> existing,
                                         std::optional<std::size_t> room, MonoTime now) const;
+  std::optional<wire::Refusal> full_for_listener(const Access& access,
+                                                 std::optional<std::size_t> existing,
+                                                 const ServerRoom& room) const;
+  std::optional<Objection> objection_to_guests(const wire::Hello& hello, const Access& access,
+                                               std::optional<std::size_t> existing,
+                                               const ServerRoom* room, MonoTime now) const;
   bool may_take_over(const ServerGuest& guest, std::uint64_t link_token, MonoTime now) const;
   void welcome(std::size_t session, const wire::Hello& hello, MonoTime received, MonoTime now);
-  void refuse(PeerId to, std::uint64_t nonce, wire::Refusal cause, const GuestId& guest);
+  void refuse(PeerId to, const GuestId& key, const wire::RoomName& room, std::uint64_t nonce,
+              wire::Refusal cause, const GuestId& guest);
+  void audit_refusal(PeerId to, const GuestId& key, const wire::RoomName& room,
+                     wire::Refusal cause);
   std::optional<std::size_t> find_token(std::uint64_t token, const GuestId& key) const;
-  std::size_t open_room(const wire::Hello& hello, MonoTime now);
+  std::size_t open_room(const Access& access, const wire::Hello& hello, MonoTime now);
   std::size_t open_session(PeerId peer, const Access& access, const wire::Hello& hello,
                            std::size_t room);
   std::uint64_t new_epoch();
   void move_session(std::size_t session, PeerId to);
   void settle_access(std::size_t session, const Access& access);
-  void settle_guests(std::size_t session, const wire::Hello& hello);
+  bool settle_guests(std::size_t session, const wire::Hello& hello);
   void bring_guest(std::size_t session, const GuestId& id, std::uint64_t link_token);
   void close_room(std::size_t room);
   void count_hosts(ServerRoom& room, int change);

@@ -45,8 +45,17 @@ void ServerCore::receive(PeerId from, const Access& access, wire::Bytes datagram
   const auto found = server_.by_peer.find(from);
   if (found != server_.by_peer.end()) {
     ServerSession& session = server_.sessions[found->second];
-    if (!session.admits(datagram.size(), now)) return server_.reject(ServerReject::kSessionRate);
+    if (!server_.admits(session, datagram.size(), now)) return;
     session.meter.came_in(datagram.size() + wire::kSealOverhead, now);
+  }
+  // The link is told why by the answer to its next hello.
+  if (access.is_expired && found != server_.by_peer.end()) {
+    server_.audit(from, {.kind = AuditKind::kRemoved,
+                         .key = access.name.view(),
+                         .room = server_.rooms[server_.sessions[found->second].room].name,
+                         .cause = "key_expired"});
+    keepalive_.send_goodbye(from);
+    return admission_.drop(found->second);
   }
   if (opening->type == wire::Type::kHello)
     return admission_.on_hello(from, access, opening->body, received, now);

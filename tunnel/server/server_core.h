@@ -60,6 +60,11 @@ class ServerCore {
     admission_.set_reserved(std::move(is_reserved));
   }
 
+  // Receives what belongs into the audit log, by peer.
+  void set_on_audit(std::function<void(PeerId, const AuditEvent&)> on_audit) {
+    server_.on_audit = std::move(on_audit);
+  }
+
   // Of a cluster, before the first datagram: the port that tells the other servers, and what they
   // tell. The port must outlive this.
   void join(ClusterPort& cluster) { server_.cluster = &cluster; }

@@ -21,6 +21,13 @@ std::optional<std::size_t> ServerRemotes::session_of(const ServerRoom& room,
   return std::nullopt;
 }
 
+// Servers that let guests of one person's key in at the same moment learn of each other too late.
+bool ServerRemotes::has_places_for(const ServerRoom& room, const OwnerKey& key) const {
+  const auto has_key = [&](const ServerGuest& guest) { return guest.in_use && guest.key == key; };
+  return key.is_shared || static_cast<std::size_t>(std::ranges::count_if(room.guests, has_key)) <
+                              server_.limits.guests_per_key;
+}
+
 std::optional<ServerRemotes::Place> ServerRemotes::place_of(const wire::RoomName& name,
                                                             ServerId server, const GuestId& id,
                                                             std::uint64_t link_token) {
@@ -70,7 +77,7 @@ void ServerRemotes::note_alive(ServerId server, Duration round_trip, MonoTime no
 }
 
 bool ServerRemotes::set_guest(const wire::RoomName& name, ServerId server, const GuestId& id,
-                              std::uint64_t link_token, MonoTime now) {
+                              std::uint64_t link_token, const OwnerKey& key, MonoTime now) {
   const auto index = admission_.find_room(name);
   if (!index) return true;
   ServerRoom& room = server_.rooms[*index];
@@ -82,7 +89,7 @@ bool ServerRemotes::set_guest(const wire::RoomName& name, ServerId server, const
   }
   const auto slot = ServerSlots::find(room, id);
   if (!slot) {
-    if (slots_.add_guest(*session, id, link_token)) return true;
+    if (has_places_for(room, key) && slots_.add_guest(*session, id, link_token, key)) return true;
     ++counters_.guests_without_place;
     return false;
   }
@@ -94,7 +101,7 @@ bool ServerRemotes::set_guest(const wire::RoomName& name, ServerId server, const
   } else {
     server_.sessions[owner].slots.erase(*slot);
     slots_.remove_guest(*index, *slot);
-    const bool added = slots_.add_guest(*session, id, link_token).has_value();
+    const bool added = slots_.add_guest(*session, id, link_token, key).has_value();
     DANCE_ASSERT(added);  // there is the slot that was just left, if no other
   }
   // A link that has gone to another server with all of its guests. Last: the room may end with it.

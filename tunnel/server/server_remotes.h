@@ -19,7 +19,7 @@ namespace dance {
 class ServerRemotes {
  public:
   struct Counters {
-    std::uint64_t guests_without_place = 0;  // the room is full here
+    std::uint64_t guests_without_place = 0;  // the room is full here, or their key has its share
     std::uint64_t servers_without_place = 0;
     std::uint64_t unknown = 0;  // records and feedback of guests or rooms that are not here
   };
@@ -47,7 +47,7 @@ class ServerRemotes {
   // A guest came through it, from wherever; the link's token says whether it was here before. Its
   // last link here may end with that, and so the room. False where there is no place for it.
   bool set_guest(const wire::RoomName& room, ServerId server, const GuestId& guest,
-                 std::uint64_t link_token, MonoTime now);
+                 std::uint64_t link_token, const OwnerKey& key, MonoTime now);
   // Nothing where it came through another server meanwhile.
   void remove_guest(const wire::RoomName& room, ServerId server, const GuestId& guest);
   void on_record(const wire::RoomName& room, ServerId server, const GuestId& guest,
@@ -75,6 +75,7 @@ class ServerRemotes {
   };
   std::optional<Place> place_of(const wire::RoomName& room, ServerId server, const GuestId& guest,
                                 std::uint64_t link_token);
+  bool has_places_for(const ServerRoom& room, const OwnerKey& key) const;
   std::optional<std::size_t> session_of(const ServerRoom& room, ServerId server) const;
 
   ServerContext& server_;

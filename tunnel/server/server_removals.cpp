@@ -26,7 +26,7 @@ wire::RemovalResult ServerRemovals::remove(std::size_t session, const GuestId& g
   if (!from.removals.take(1.0, now)) return wire::RemovalResult::kTooMany;
   const ServerGuest& there = room.guests[*slot];
   if (server_.is_local(there)) {
-    end(there.owner, now);
+    end(there.owner, from.access.name, now);
     return wire::RemovalResult::kDone;
   }
   if (server_.cluster != nullptr)
@@ -34,10 +34,20 @@ wire::RemovalResult ServerRemovals::remove(std::size_t session, const GuestId& g
   return wire::RemovalResult::kPassedOn;
 }
 
-// All of the link's guests: it is one house.
-void ServerRemovals::end(std::size_t index, MonoTime now) {
+// Removes all guests of the link: it is one house. `by` is the host's key, not set where the host
+// is at another server of the cluster.
+void ServerRemovals::end(std::size_t index, const GuestId& by, MonoTime now) {
   const ServerSession& session = server_.sessions[index];
   const ServerRoom& room = server_.rooms[session.room];
+  AuditEvent event{.kind = AuditKind::kRemoved,
+                   .key = session.access.name.view(),
+                   .room = room.name,
+                   .cause = "by_host",
+                   .by = by};
+  for (const std::uint8_t slot : session.slots) {
+    if (!event.guests.try_push(room.guests[slot].id)) break;
+  }
+  server_.audit(session.peer, event);
   const wire::RoomName name = room.name;
   const GuestId key = session.access.any_name ? GuestId() : session.access.name;
   for (const std::uint8_t slot : session.slots) {
@@ -46,7 +56,7 @@ void ServerRemovals::end(std::size_t index, MonoTime now) {
     if (server_.cluster != nullptr) server_.cluster->on_removal(name, notice);
   }
   ++server_.counters.sessions_removed;
-  admission_.tell_removed(session.peer, 0, wire::kRemovedFor);
+  admission_.send_removal_notice(session.peer, 0, wire::kRemovedFor);
   admission_.drop(index);
 }
 
@@ -61,7 +71,7 @@ void ServerRemovals::on_notice(const wire::RoomName& name, const RemovalNotice& 
   if (!slot || !server_.is_local(room.guests[*slot]) ||
       room.guests[*slot].link_token != notice.link_token)
     return;
-  end(room.guests[*slot].owner, now);
+  end(room.guests[*slot].owner, GuestId(), now);
 }
 
 void ServerRemovals::tell_rights(std::size_t index) {

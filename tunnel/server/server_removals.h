@@ -26,7 +26,7 @@ class ServerRemovals {
 
  private:
   wire::RemovalResult remove(std::size_t session, const GuestId& guest, MonoTime now);
-  void end(std::size_t session, MonoTime now);
+  void end(std::size_t session, const GuestId& by, MonoTime now);
 
   ServerContext& server_;
   ServerAdmission& admission_;

@@ -42,14 +42,12 @@ void ServerSync::send_roster(std::size_t index) {
   const ServerSession& session = server_.sessions[index];
   const ServerRoom& room = server_.rooms[session.room];
   constexpr std::uint8_t kSpan = wire::kSlotsPerRosterPart;
-  constexpr auto kPage = static_cast<std::uint8_t>(wire::kSlotsPerPage / kSpan);
-  constexpr auto kAll = static_cast<std::uint8_t>(wire::kMaxGuestsPerRoom / kSpan);
-  const std::uint8_t parts = session.can_name(wire::kSlotsPerPage) ? kAll : kPage;
-  for (std::uint8_t part = 0; part < parts; ++part) {
+  constexpr auto kParts = static_cast<std::uint8_t>(wire::kMaxGuestsPerRoom / kSpan);
+  for (std::uint8_t part = 0; part < kParts; ++part) {
     wire::RosterPart roster;
     roster.version = room.roster_version;
     roster.part = part;
-    roster.parts = parts;
+    roster.parts = kParts;
     roster.first_slot = static_cast<std::uint8_t>(part * kSpan);
     roster.slot_span = kSpan;
     for (std::uint8_t i = 0; i < kSpan; ++i) {

@@ -26,10 +26,6 @@ Slot read_slot(ByteReader& in) {
   return slot;
 }
 
-bool is_spoken(std::uint8_t version) {
-  return version >= kOldestWireVersion && version <= kWireVersion;
-}
-
 void write_codec(const CodecName& codec, ByteWriter& out) {
   out.u8(static_cast<std::uint8_t>(codec.id));
   out.u32(codec.model);
@@ -78,7 +74,7 @@ std::optional<Hello> parse_hello(Bytes body, HelloProblem& problem) {
   Hello hello;
   hello.version = in.u8();
   hello.nonce = problem.nonce = in.u64();
-  problem.is_other_version = in.ok() && !is_spoken(hello.version);
+  problem.is_other_version = in.ok() && hello.version != kWireVersion;
   if (problem.is_other_version) return std::nullopt;
   hello.token = in.u64();
   hello.link_time_us = in.i64();
@@ -130,7 +126,7 @@ std::optional<Welcome> parse_welcome(Bytes body) {
   welcome.server_send_us = in.i64();
   welcome.codec = read_codec(in);
   const std::size_t slots = in.u8();
-  if (!is_spoken(welcome.version) || slots > kMaxGuestsPerLink) return std::nullopt;
+  if (welcome.version != kWireVersion || slots > kMaxGuestsPerLink) return std::nullopt;
   for (std::size_t i = 0; i < slots; ++i) {
     const Slot slot = read_slot(in);
     if (slot.slot >= kSlotsPerPage || !welcome.slots.try_push(slot)) return std::nullopt;
@@ -156,7 +152,7 @@ std::optional<RefusalNotice> parse_refusal(Bytes body) {
   refusal.server_version = in.u8();
   const std::uint16_t cause = in.u16();
   if (cause < static_cast<std::uint16_t>(Refusal::kVersion) ||
-      cause > static_cast<std::uint16_t>(Refusal::kRemoved))
+      cause > static_cast<std::uint16_t>(Refusal::kKeyGuests))
     return std::nullopt;
   refusal.cause = static_cast<Refusal>(cause);
   refusal.nonce = in.u64();

@@ -26,11 +26,7 @@
 
 namespace dance::wire {
 
-// 5 has twice the slots of 4, and voices. A peer of version 4 hears of the lower half of the slots,
-// and neither gets a voice nor sends one.
-constexpr std::uint8_t kWireVersion = 5;
-constexpr std::uint8_t kOldestWireVersion = 4;
-static_assert(kOldestWireVersion == seal::kTunnelVersion, "all before were not sealed");
+constexpr std::uint8_t kWireVersion = 6;
 // What the seal adds.
 constexpr std::size_t kSealOverhead = seal::kOverhead;
 // An inner datagram, as the state machines see it.
@@ -39,7 +35,7 @@ constexpr std::size_t kMaxPlain = seal::kMaxPlain;
 constexpr std::size_t kMaxHello = 512;
 constexpr std::size_t kMaxGuestsPerLink = 16;
 constexpr std::size_t kMaxGuestsPerRoom = 128;
-// Slots come in pages. A link's own guests are in the first, as are all that version 4 can name.
+// Slots come in pages. A link's own guests are in the first.
 constexpr std::size_t kSlotsPerPage = 64;
 constexpr std::size_t kMaxCodecs = 8;
 constexpr std::size_t kMaxPayload = 512;
@@ -92,6 +88,10 @@ enum class Refusal : std::uint16_t {
   kOnlyListens = 9,     // the link's key allows no guests at all
   kListenersFull = 10,  // no place for another link without guests in this room
   kRemoved = 11,        // a host has removed this house's guests from the room
+  kKeySessions = 12,    // the link's key has as many sessions as one key may have
+  kKeyRooms = 13,       // the link's key has opened as many rooms as one key may open
+  kKeyExpired = 14,     // the link's key was good until a time that is over
+  kKeyGuests = 15,      // the link's key has as many places in this room as one key may have
 };
 
 struct Hello {

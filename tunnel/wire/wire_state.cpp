@@ -6,9 +6,10 @@ namespace dance::wire {
 namespace {
 
 constexpr std::array<StateKind, kFirstChannelPlace> kGuestKinds{
-    StateKind::kSkeleton, StateKind::kAvatar, StateKind::kStyle, StateKind::kPlacement,
-    StateKind::kAvatarFile};
-constexpr std::array<StateKind, kRoomStates> kRoomKinds{StateKind::kMusic, StateKind::kScene};
+    StateKind::kSkeleton,  StateKind::kAvatar,     StateKind::kStyle,
+    StateKind::kPlacement, StateKind::kAvatarFile, StateKind::kChat};
+constexpr std::array<StateKind, kRoomStates> kRoomKinds{StateKind::kMusic, StateKind::kScene,
+                                                        StateKind::kSong};
 constexpr int kIndexShift = 4;
 
 void write_state_name(const StateName& name, ByteWriter& out) {
@@ -19,7 +20,7 @@ void write_state_name(const StateName& name, ByteWriter& out) {
 std::optional<StateName> read_state_name(ByteReader& in) {
   const std::uint8_t byte = in.u8();
   StateName name{static_cast<StateKind>(byte & 15), static_cast<std::uint8_t>(byte >> kIndexShift)};
-  const bool is_known = name.kind >= StateKind::kSkeleton && name.kind <= StateKind::kAvatarFile;
+  const bool is_known = name.kind >= StateKind::kSkeleton && name.kind <= StateKind::kChat;
   const std::size_t most = name.kind == StateKind::kChannel ? kMaxChannelsPerGuest : 1;
   if (!in.ok() || !is_known || name.index >= most) return std::nullopt;
   return name;
@@ -43,6 +44,7 @@ std::size_t place_of(const StateName& name) {
   if (name.kind == StateKind::kChannel) return kFirstChannelPlace + name.index;
   if (name.kind == StateKind::kMusic) return 0;
   if (name.kind == StateKind::kScene) return 1;
+  if (name.kind == StateKind::kSong) return 2;
   for (std::size_t place = 0; place < kGuestKinds.size(); ++place)
     if (kGuestKinds[place] == name.kind) return place;
   DANCE_ASSERT(false, static_cast<int>(name.kind));

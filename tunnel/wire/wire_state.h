@@ -23,9 +23,11 @@ enum class StateKind : std::uint8_t {
   kPlacement = 6,
   kChannel = 7,     // a further channel: its class and name, then its last message
   kAvatarFile = 8,  // of a guest; only to who has said file terms (tunnel/wire/wire_files.h)
+  kSong = 9,        // of the room
+  kChat = 10,       // a guest's newest lines and signs (tunnel/wire/wire_chat.h)
 };
 constexpr bool is_of_room(StateKind kind) {
-  return kind == StateKind::kMusic || kind == StateKind::kScene;
+  return kind == StateKind::kMusic || kind == StateKind::kScene || kind == StateKind::kSong;
 }
 
 // Which state of a guest, or of the room.
@@ -35,10 +37,10 @@ struct StateName {
   bool operator==(const StateName&) const = default;
 };
 // States have their places in tables: of a guest the skeleton, avatar, style, placement, avatar
-// file and then the channels; of the room music and scene.
-constexpr std::size_t kFirstChannelPlace = 5;
+// file, chat and then the channels; of the room music, scene and song.
+constexpr std::size_t kFirstChannelPlace = 6;
 constexpr std::size_t kGuestStates = kFirstChannelPlace + kMaxChannelsPerGuest;
-constexpr std::size_t kRoomStates = 2;
+constexpr std::size_t kRoomStates = 3;
 std::size_t place_of(const StateName& name);
 StateName guest_state_at(std::size_t place);
 StateName room_state_at(std::size_t place);

@@ -14,9 +14,6 @@
 
 namespace dance::wire {
 
-// Older peers do not know it.
-constexpr std::uint8_t kFirstVoiceVersion = 5;
-
 // 10 ms of one guest's voice.
 struct VoiceRecord {
   Slot slot;

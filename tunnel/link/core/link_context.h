@@ -50,7 +50,6 @@ struct LinkContext {
   LocalGuests locals;
   RemoteGuests remotes;
   LinkState state = LinkState::kConnecting;
-  std::uint8_t version = 0;  // of the wire, that the server speaks in this session
   CodecName codec;
   Stream stream;
   bool may_remove = false;          // the server has said so in this session

@@ -20,10 +20,12 @@
 #include "core/codec/pose_codec.h"
 #include "core/codec/quality_by_rate.h"
 #include "tunnel/link/core/link_options.h"
+#include "tunnel/policy/chat_budget.h"
 #include "tunnel/session/reference_control.h"
 #include "tunnel/session/repetition.h"
 #include "tunnel/session/state_replicator.h"
 #include "tunnel/session/stream_gate.h"
+#include "tunnel/wire/wire_chat.h"
 #include "tunnel/wire/wire_voice.h"
 
 namespace dance {
@@ -55,6 +57,12 @@ struct RemoteChannel {
   std::uint32_t sequence = 0;
 };
 
+// The newest lines and signs of a guest of this house, in this house's clock.
+struct ChatOutbox {
+  wire::ChatHistory history;
+  ChatBudget budget;
+};
+
 struct LocalGuest {
   GuestId id;
   bool has_slot = false;
@@ -72,11 +80,13 @@ struct LocalGuest {
   ReferenceControl references;
   std::uint32_t unstamped = 0;  // poses since one brought its hops; 0 = the next one does
   SentPose previous;            // goes once more where the path loses some
-  // Skeleton, avatar, style, placement and avatar file, by wire::place_of().
+  ChatOutbox chat;
+  // Skeleton, avatar, style, placement, avatar file and chat, by wire::place_of().
   std::array<ReplicatedState, wire::kFirstChannelPlace> states;
   // What this guest requested for the room last: programs say it again each second, which is no new
   // request.
   std::optional<Music> requested_music;  // in our clock
+  std::optional<RoomSong> requested_song;
   std::optional<Scene> requested_scene;
 };
 

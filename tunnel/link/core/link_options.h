@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/base/fixed_list.h"
+#include "core/bus/chat.h"
 #include "core/bus/house_messages.h"
 #include "core/bus/state_messages.h"
 #include "core/bus/voice.h"
@@ -63,6 +64,9 @@ struct LinkOptions {
   double file_bytes_per_second = 131'072.0;
   // Further channels that ride along; at most kMaxChannelRules.
   std::vector<ChannelRule> channels;
+  // Resolves the server's name, in a thread of its own, while the server is silent; not set: its
+  // addresses stay as they are. Used by Link.
+  std::function<Result<std::vector<Address>>()> look_up;
 };
 
 enum class LinkState : std::uint8_t {
@@ -80,8 +84,11 @@ struct LinkHandlers {
   std::function<void(const GuestId&, const AvatarFile&, MonoTime now)> on_avatar_file;
   std::function<void(const GuestId&, const Style&, MonoTime now)> on_style;
   std::function<void(const GuestId&, const Placement&, MonoTime now)> on_placement;
+  // A line or sign of another guest, once, in the order in which they wrote.
+  std::function<void(const GuestId&, const Chat&, MonoTime now)> on_chat;
   // What holds in the room, and who set it: also a guest of this house.
   std::function<void(const GuestId&, const Music&, MonoTime now)> on_music;
+  std::function<void(const GuestId&, const RoomSong&, MonoTime now)> on_song;
   std::function<void(const GuestId&, const Scene&, MonoTime now)> on_scene;
   // A guest of this house requested something else: overruled, or not allowed to.
   std::function<void(wire::StateKind, wire::StateVerdict)> on_room_state_refused;
@@ -114,6 +121,10 @@ struct LinkHandlers {
   std::function<void(const Address&)> on_no_answer;
   // The server is there, and there is no sealed session with it. Said by Link, with each try.
   std::function<void(SealTrouble)> on_no_entry;
+  // The server's name has other addresses now, the first of which is tried; or it cannot be
+  // resolved, and why. Said by Link, each time.
+  std::function<void(const Address&)> on_new_address;
+  std::function<void(const std::string& why)> on_unknown_name;
 };
 
 struct LinkCounters {
@@ -139,6 +150,7 @@ struct LinkCounters {
   std::uint64_t states_invalid = 0;    // both ways
   std::uint64_t states_overruled = 0;  // requests for the room that somebody else's replaced
   std::uint64_t states_refused = 0;    // requests that the server does not allow
+  std::uint64_t chats_limited = 0;     // both ways: lines and signs above a guest's rate
   std::uint64_t channels_sent = 0;     // messages of further channels
   std::uint64_t channels_delivered = 0;
   std::uint64_t channels_unlisted = 0;  // both ways: no rule lets them pass
@@ -202,6 +214,9 @@ std::string room_state_line(wire::StateKind kind, wire::StateVerdict verdict);
 // One line: which server does not answer, and what to look at.
 std::string no_answer_line(const Address& server);
 std::string other_server_line(const Address& server);
+// `server` as the user named it.
+std::string new_address_line(const std::string& server, const Address& address);
+std::string unknown_name_line(const std::string& why);
 // Why a server that answers does not let this house in, and the cure. `server` as the user named
 // it.
 std::string no_entry_line(SealTrouble trouble, const std::string& server);

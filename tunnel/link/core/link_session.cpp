@@ -79,7 +79,6 @@ void LinkSession::begin_lapse(MonoTime now) {
 void LinkSession::on_sealed(MonoTime now) {
   is_sealed_ = true;
   is_welcome_ = false;
-  version_ = wire::kWireVersion;  // it may be another server
   // The server does not know yet that this sealed session is ours.
   if (link_.state == LinkState::kConnected) return begin_lapse(now);
   schedule_update(now);
@@ -116,7 +115,6 @@ void LinkSession::send_hello(MonoTime now) {
     }
   }
   wire::Hello hello;
-  hello.version = version_;
   hello.nonce = hello_nonce_;
   hello.token = link_.options.token;
   hello.link_time_us = now.since_zero_us();
@@ -163,7 +161,8 @@ void LinkSession::send_ping(std::uint32_t roster_version, bool is_calm, MonoTime
 
 void LinkSession::heard_server(MonoTime now) {
   last_heard_ = now;
-  if (link_.state == LinkState::kLapsed) {
+  // After a goodbye only a welcome counts: other datagrams were under way before it.
+  if (link_.state == LinkState::kLapsed && !has_goodbye_) {
     // The server is there, and seems still to know the session. Only its welcome makes it certain:
     // what comes may have been under way since before it forgot.
     ++link_.counters.reconnects;
@@ -186,7 +185,6 @@ std::optional<wire::Welcome> LinkSession::parse_answer(wire::Bytes body) const {
 
 void LinkSession::begin(const wire::Welcome& welcome, MonoTime now) {
   if (is_new(welcome)) quick_pings_left_ = kQuickPings;
-  link_.version = welcome.version;
   epoch_ = welcome.epoch;
   is_welcome_ = true;
   hello_wanted_ = has_untold_removal_ = false;
@@ -220,13 +218,6 @@ bool LinkSession::on_refusal(wire::Bytes body, MonoTime now) {
   if (is_removal) {
     stay_away(Duration::s(refusal->seconds), now);
     if (link_.handlers.on_refused) link_.handlers.on_refused(*refusal, now);
-    return true;
-  }
-  // An older server: all that it knows is here too.
-  if (refusal->cause == wire::Refusal::kVersion && version_ > refusal->server_version &&
-      refusal->server_version >= wire::kOldestWireVersion) {
-    version_ = refusal->server_version;
-    next_hello_ = now;
     return true;
   }
   if (link_.state == LinkState::kConnected) {
@@ -267,8 +258,9 @@ void LinkSession::leave_out(const GuestId& refused, MonoTime now) {
   for (LocalGuest& guest : link_.locals) guest.refused_until = MonoTime();
 }
 
-// Through a lapse too: the others may hear what this link does not, and what first comes through a
-// path that was cut is a pose, not a hello. Until the server has surely forgotten the session.
+// True during a lapse too, until the server has surely forgotten the session: the server may
+// receive although this link does not, and a pose may be the first datagram through after a cut.
+// A move to another server ends the session, and with it the sending.
 bool LinkSession::may_send(MonoTime now) const {
   return link_.is_connected() ||
          (link_.state == LinkState::kLapsed && is_welcome_ && now - last_heard_ < kDancesOnInLapse);

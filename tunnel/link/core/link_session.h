@@ -70,7 +70,6 @@ class LinkSession {
   bool is_welcome_ = false;
   bool has_goodbye_ = false;
   std::uint64_t epoch_ = 0;
-  std::uint8_t version_ = wire::kWireVersion;  // that the server speaks too
 
   // Hello under way.
   bool has_untold_removal_ = false;  // the server still has a guest of ours who has left

@@ -15,15 +15,11 @@ constexpr Duration kStays = Duration::ms(200);
 constexpr Duration kShortestTry = Duration::ms(800);
 constexpr std::int64_t kRoundTripsOfTry = 8;
 constexpr Duration kLongestTry = Duration::s(20);
+// Waiting time while no other server may be tried.
+constexpr Duration kLookAgain = Duration::ms(200);
 // A nearer server is nearer by so much at least: what is nearly equal stays as it is.
 constexpr Duration kWorthwhile = Duration::ms(5);
 constexpr std::int64_t kWorthwhileShare = 5;  // a fifth of the way
-
-Duration distance_of(const std::vector<ServerChoice::Distance>& distances, const Address& server) {
-  for (const auto& distance : distances)
-    if (distance.server == server && distance.round_trip) return *distance.round_trip;
-  return Duration::s(1000);
-}
 
 }  // namespace
 
@@ -47,29 +43,51 @@ std::vector<Address> ServerChoice::all() const {
   return servers;
 }
 
-std::optional<Address> ServerChoice::choose(const std::vector<Distance>& distances) {
-  distances_ = distances;
-  std::ranges::stable_sort(others_, std::less<>(),
-                           [&](const Address& server) { return distance_of(distances, server); });
+std::optional<Duration> ServerChoice::distance_of(const Address& server) const {
+  const auto found = std::ranges::find(distances_, server, &Distance::server);
+  return found == distances_.end() ? std::nullopt : found->round_trip;
+}
+
+void ServerChoice::set_distances(const std::vector<Distance>& distances) {
+  std::vector<Distance> newest = distances;
+  for (Distance& distance : newest)
+    if (!distance.round_trip) distance.round_trip = distance_of(distance.server);
+  distances_ = std::move(newest);
+  std::ranges::stable_sort(others_, std::less<>(), [this](const Address& server) {
+    return distance_of(server).value_or(Duration::s(1000));
+  });
+}
+
+std::optional<Address> ServerChoice::choose() {
   if (others_.empty() || std::exchange(has_chosen_, true)) return std::nullopt;
-  const Duration here = distance_of(distances, current_);
-  const Duration there = distance_of(distances, others_.front());
-  const Duration gain = here - there;
-  if (gain < kWorthwhile || gain * kWorthwhileShare < here) return std::nullopt;
+  const std::optional<Duration> here = distance_of(current_);
+  const std::optional<Duration> there = distance_of(others_.front());
+  if (!here || !there) return std::nullopt;
+  const Duration gain = *here - *there;
+  if (gain < kWorthwhile || gain * kWorthwhileShare < *here) return std::nullopt;
   return others_.front();
 }
 
 Duration ServerChoice::time_for(const Address& server) const {
   Duration time = kShortestTry;
-  for (const Distance& distance : distances_)
-    if (distance.server == server && distance.round_trip)
-      time = std::max(time, *distance.round_trip * kRoundTripsOfTry);
+  if (const auto distance = distance_of(server))
+    time = std::max(time, *distance * kRoundTripsOfTry);
   for (std::size_t round = tries_ / (others_.size() + 1); round > 0 && time < kLongestTry; --round)
     time = time * 2;
   return std::min(time, kLongestTry);
 }
 
-void ServerChoice::begin_try(MonoTime now) { trying_until_ = now + time_for(current_); }
+// The server before it stays a choice: it is tried again after the others.
+void ServerChoice::make_current(const Address& server) {
+  std::erase(others_, server);
+  if (current_ != server) others_.push_back(current_);
+  current_ = server;
+}
+
+void ServerChoice::begin_try(const Address& server, MonoTime now) {
+  make_current(server);
+  trying_until_ = now + time_for(server);
+}
 
 bool ServerChoice::end_lapse() {
   lapsed_since_ = next_move_ = MonoTime();
@@ -79,7 +97,8 @@ bool ServerChoice::end_lapse() {
   return true;
 }
 
-std::optional<Address> ServerChoice::next(bool has_goodbye, MonoTime now) {
+std::optional<Address> ServerChoice::next(bool has_goodbye, ServerCandidates& candidates,
+                                          MonoTime now) {
   if (!lapsed_since_.is_set()) {
     lapsed_since_ = now;
     next_move_ = std::max(has_goodbye ? now : now + kStays, trying_until_);
@@ -89,11 +108,14 @@ std::optional<Address> ServerChoice::next(bool has_goodbye, MonoTime now) {
     return std::nullopt;
   }
   if (now < next_move_) return std::nullopt;
-  const Address server = others_.front();
-  // Round and round: the one that was silent may come back.
-  others_.erase(others_.begin());
-  others_.push_back(current_);
-  current_ = server;
+  const auto allowed = std::ranges::find_if(
+      others_, [&](const Address& other) { return candidates.take_try(other, now); });
+  if (allowed == others_.end()) {
+    next_move_ = now + kLookAgain;
+    return std::nullopt;
+  }
+  const Address server = *allowed;
+  make_current(server);
   next_move_ = now + time_for(server);
   ++tries_;
   has_moved_ = true;

@@ -1,16 +1,15 @@
-// Which server of a cluster a link speaks to: the nearest when it comes, and another when that one
-// ends or falls silent.
+// ServerChoice chooses the server of a cluster that a link uses: the nearest one after it has
+// connected, and another when that one ends or falls silent.
 //
 // Units/frames: MonoTime of the link's clock.
-// Ownership:    plain values.
-// Threads:      none inside.
-// Failure:      of a server that stands alone there is no other: next() gives nothing.
+// Failure:      next() returns nothing while ServerCandidates allows no other server.
 #pragma once
 
 #include <optional>
 #include <vector>
 
 #include "core/net/address.h"
+#include "tunnel/link/failover/server_candidates.h"
 #include "tunnel/wire/wire_servers.h"
 
 namespace dance {
@@ -31,26 +30,32 @@ class ServerChoice {
   // All that there are, the current one first.
   std::vector<Address> all() const;
 
-  // What was measured: puts the others in order, and gives one that is nearer by so much that it is
-  // worth to go there. Once, and once more after a lapse that ended at another server: who dances
-  // does not wander.
-  std::optional<Address> choose(const std::vector<Distance>& distances);
+  // Sorts the others by distance. A server without a new round trip keeps its last one.
+  void set_distances(const std::vector<Distance>& distances);
+  // After set_distances(): the nearest server, if moving there is worth the interruption. Returns
+  // one once, and once more after a lapse that ended at another server.
+  std::optional<Address> choose();
 
-  // The current one was gone to by choice: it has as long as a try has before another is looked
-  // for.
-  void begin_try(MonoTime now);
-  // While the server is silent or has said goodbye: where to go now; nothing = wait on.
-  std::optional<Address> next(bool has_goodbye, MonoTime now);
-  // The server is heard. True where it is another than before the lapse: a nearer one may be back.
+  // The link moves to this server, as choose() suggested. It has the time of a try before next()
+  // looks for another.
+  void begin_try(const Address& server, MonoTime now);
+  // The server to connect to when the current one is silent or has ended; nullopt = wait.
+  // Counts a try of the server that it returns.
+  std::optional<Address> next(bool has_goodbye, ServerCandidates& candidates, MonoTime now);
+  bool is_in_lapse() const { return lapsed_since_.is_set(); }
+  // The server answers. Returns true if the link changed its server in this lapse: a nearer server
+  // may be back.
   bool end_lapse();
   // When next() is due again; MonoTime() = not in a lapse.
   MonoTime next_deadline() const { return next_move_; }
 
  private:
+  void make_current(const Address& server);
+  std::optional<Duration> distance_of(const Address& server) const;
   Duration time_for(const Address& server) const;
 
   Address current_;
-  std::vector<Distance> distances_;  // as measured last
+  std::vector<Distance> distances_;  // the newest of each server
   std::vector<Address> others_;      // the nearest first; those that were tried go to the end
   bool has_chosen_ = false;
   bool has_moved_ = false;  // in this lapse

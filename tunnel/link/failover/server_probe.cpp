@@ -9,8 +9,6 @@
 namespace dance {
 namespace {
 
-constexpr int kRounds = 3;
-constexpr Duration kRound = Duration::ms(60);
 constexpr Duration kLongestWait = Duration::ms(600);
 
 }  // namespace
@@ -32,18 +30,12 @@ void ServerProbe::begin(std::span<const Address> servers, MonoTime now) {
     questions_.push_back({server, std::move(*socket), 0, MonoTime(), std::nullopt});
     poller_.watch(questions_.back().socket.fd(), [this, which](MonoTime) { on_readable(which); });
   }
-  rounds_ = 0;
-  next_ = questions_.empty() ? MonoTime() : now;
+  for (Question& question : questions_) ask(question, now);
+  next_ = questions_.empty() ? MonoTime() : now + kLongestWait;
 }
 
 void ServerProbe::tick(MonoTime now) {
-  if (!next_.is_set() || now < next_) return;
-  if (rounds_ == kRounds) {
-    next_ = MonoTime();
-    return;
-  }
-  for (Question& question : questions_) ask(question, now);
-  next_ = now + (++rounds_ == kRounds ? kLongestWait : kRound);
+  if (next_.is_set() && now >= next_) next_ = MonoTime();
 }
 
 void ServerProbe::ask(Question& question, MonoTime now) {
@@ -61,14 +53,14 @@ void ServerProbe::on_readable(std::size_t which) {
   for (const UdpSocket::Datagram& datagram : question.socket.receive()) {
     const auto opening = seal::parse(datagram.bytes);
     if (!opening || opening->form != seal::Form::kNotice || opening->id != question.id) continue;
-    const Duration round_trip = std::max(Duration(), datagram.received - question.asked);
-    question.shortest = std::min(question.shortest.value_or(round_trip), round_trip);
+    question.round_trip = std::max(Duration(), datagram.received - question.asked);
+    on_answer_(question.to);
   }
 }
 
 std::optional<Duration> ServerProbe::round_trip(const Address& server) const {
   for (const Question& question : questions_)
-    if (question.to == server) return question.shortest;
+    if (question.to == server) return question.round_trip;
   return std::nullopt;
 }
 

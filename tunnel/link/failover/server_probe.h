@@ -1,14 +1,18 @@
-// How far servers are from here: each is asked a few times with a datagram that needs no session
-// and no key, and answers that it knows no such session.
+// Measures round trips to servers. Each is sent one datagram that needs no session and no key, and
+// answers that it knows no such session. Only one, because a server can list hosts that never asked
+// for it: tunnel/link/failover/server_candidates.h. The answer repeats a random id, so only a host
+// that received the datagram, or one on the path, can send it.
 //
 // Units/frames: MonoTime of the poller's clock.
 // Ownership:    owns a socket for each server; the poller must outlive it.
 // Threads:      the poller's.
-// Failure:      a server that does not answer, or to which there is no way, has no round trip.
+// Failure:      a server that does not answer, or to which there is no route, has no round trip.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/net/poller.h"
@@ -18,19 +22,21 @@ namespace dance {
 
 class ServerProbe {
  public:
-  explicit ServerProbe(Poller& poller) : poller_(poller) {}
+  using OnAnswer = std::function<void(const Address& server)>;
+  ServerProbe(Poller& poller, OnAnswer on_answer)
+      : poller_(poller), on_answer_(std::move(on_answer)) {}
   ~ServerProbe();
   ServerProbe(const ServerProbe&) = delete;
   ServerProbe& operator=(const ServerProbe&) = delete;
 
-  // Forgets earlier ones, and asks these.
+  // Forgets earlier answers, and sends each of these a datagram.
   void begin(std::span<const Address> servers, MonoTime now);
-  // Asks again what is due. Call at next_deadline().
+  // Ends the wait for answers. Call at next_deadline().
   void tick(MonoTime now);
   MonoTime next_deadline() const { return next_; }
-  // All have been asked as often as they are, and had time to answer.
+  // Every server had time to answer.
   bool is_done() const { return !questions_.empty() && !next_.is_set(); }
-  // The shortest; nothing where it did not answer.
+  // Returns nullopt if the server did not answer.
   std::optional<Duration> round_trip(const Address& server) const;
 
  private:
@@ -39,15 +45,15 @@ class ServerProbe {
     UdpSocket socket;
     std::uint64_t id = 0;
     MonoTime asked;
-    std::optional<Duration> shortest;
+    std::optional<Duration> round_trip;
   };
   void ask(Question& question, MonoTime now);
   void on_readable(std::size_t which);
   void clear();
 
   Poller& poller_;
+  OnAnswer on_answer_;
   std::vector<Question> questions_;
-  int rounds_ = 0;
   MonoTime next_;
 };
 

@@ -15,7 +15,7 @@
 namespace dance {
 
 // Of all guests of a house together.
-constexpr std::size_t kMaxHouseChannels = 32;
+constexpr std::size_t kMaxHouseChannels = 64;
 
 class LinkChannels {
  public:

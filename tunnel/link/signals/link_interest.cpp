@@ -5,10 +5,8 @@
 namespace dance {
 
 void LinkInterest::update() {
-  wire::InterestList list =
+  const wire::InterestList list =
       link_.remotes.interest_list(link_.options.interest, link_.options.hearing);
-  // An older server sends no voices, and does not know the words for them.
-  if (link_.version < wire::kFirstVoiceVersion) list.voices = {};
   if (request_.change(list) && link_.is_connected()) tell();
 }
 

@@ -1,6 +1,7 @@
 #include "tunnel/link/signals/link_room.h"
 
 #include <cmath>
+#include <type_traits>
 
 #include "core/base/sequence.h"
 #include "tunnel/wire/state_bytes.h"
@@ -8,61 +9,84 @@
 namespace dance {
 namespace {
 
-constexpr std::size_t kMusicPlace = 0;
-// What the music may be off by before the others are told again.
-constexpr double kMusicTolerance_s = 0.003;
-// Music that is said to be as far off as this is another request, and not the same one in a clock
-// that drifts.
-constexpr double kSameMusic_s = 0.25;
+// An error of the start above this is corrected for the other houses.
+constexpr double kStartTolerance_s = 0.003;
+// A start that differs by more is another request, and not the same one in a clock that drifts.
+constexpr double kSameStart_s = 0.25;
 constexpr Duration kLongestMusic = Duration::s(24 * 3600);
 
-bool is_same_music(const Music& a, const Music& b, MonoTime at, double tolerance_s) {
+template <class Message>
+constexpr wire::StateKind kKindOf =
+    std::is_same_v<Message, Music> ? wire::StateKind::kMusic : wire::StateKind::kSong;
+
+bool is_same(const Music& a, const Music& b, MonoTime at, double tolerance_s) {
   if (a.title != b.title || a.tempo_bpm != b.tempo_bpm || a.beats_per_bar != b.beats_per_bar ||
       a.playing != b.playing)
     return false;
   return std::abs(a.beats_at(at) - b.beats_at(at)) * 60.0 / a.tempo_bpm <= tolerance_s;
 }
 
+bool is_same(const RoomSong& a, const RoomSong& b, MonoTime, double tolerance_s) {
+  return is_same_song(a, b) && std::abs((a.start_time - b.start_time).as_seconds()) <= tolerance_s;
+}
+
+std::optional<Music>& requested_of(LocalGuest& guest, const Music&) {
+  return guest.requested_music;
+}
+std::optional<RoomSong>& requested_of(LocalGuest& guest, const RoomSong&) {
+  return guest.requested_song;
+}
+
 }  // namespace
 
-void LinkRoom::send(const GuestId& id, const Music& given, MonoTime now) {
+void LinkRoom::send(const GuestId& id, const Music& music, MonoTime now) {
+  send_timed(id, music, music_, now);
+}
+
+void LinkRoom::send(const GuestId& id, const RoomSong& song, MonoTime now) {
+  send_timed(id, song, song_, now);
+}
+
+template <class Message>
+void LinkRoom::send_timed(const GuestId& id, const Message& given, Timed<Message>& timed,
+                          MonoTime now) {
   if (!is_valid(given)) {
     ++link_.counters.states_invalid;
     return;
   }
-  Music music = given;
-  if (music.clock_id != link_.options.clock_id) {
-    // As with poses of a clock that we do not know: taken as said now.
+  Message message = given;
+  if (message.clock_id != link_.options.clock_id) {
+    // The clock is unknown, as it may be for poses: the message counts as published now.
     ++link_.counters.foreign_clock;
-    const Duration until = music.start_time - music.time;
+    const Duration until = message.start_time - message.time;
     if (until < -kLongestMusic || until > kLongestMusic) {
       ++link_.counters.states_invalid;
       return;
     }
-    music.start_time = now + until;
+    message.start_time = now + until;
   }
   LocalGuest* guest = link_.locals.find(id);
   if (guest == nullptr || !link_.clock.is_mapped()) {
     ++link_.counters.unrouted;
     return;
   }
-  const Request& request = requests_[kMusicPlace];
-  const bool is_again =
-      guest->requested_music && is_same_music(music, *guest->requested_music, now, kSameMusic_s);
-  guest->requested_music = music;
-  // Overruled, saying the same again changes nothing.
+  const Request& request = requests_[wire::place_of({kKindOf<Message>, 0})];
+  std::optional<Message>& requested = requested_of(*guest, message);
+  const bool is_again = requested && is_same(message, *requested, now, kSameStart_s);
+  requested = message;
+  // Overruled, the same request again changes nothing.
   if (is_again && !(request.is_open && request.setter == id)) return;
-  requested_music_ = music;
+  timed.requested = message;
   const MonoTime server_now = MonoTime::from_us(link_.clock.to_theirs_us(now));
-  music.start_time = MonoTime::from_us(link_.clock.to_theirs_us(music.start_time));
-  Music told;
+  message.start_time = MonoTime::from_us(link_.clock.to_theirs_us(message.start_time));
+  Message sent;
   const wire::Bytes before = request.state.bytes();
-  if (is_again && decode_from_tunnel(before, told) &&
-      is_same_music(music, told, server_now, kMusicTolerance_s))
+  if (is_again && decode_from_tunnel(before, sent) &&
+      is_same(message, sent, server_now, kStartTolerance_s))
     return;
   MessageBuffer buffer;
-  const std::size_t size = encode_for_tunnel(music, buffer);
-  make_request(id, wire::StateKind::kMusic, {buffer.data(), size}, now);
+  const std::size_t size = encode_for_tunnel(message, buffer);
+  make_request(id, kKindOf<Message>, {buffer.data(), size}, now);
 }
 
 void LinkRoom::send(const GuestId& id, const Scene& scene, MonoTime now) {
@@ -106,15 +130,28 @@ void LinkRoom::make_request(const GuestId& setter, wire::StateKind kind, wire::B
     link_.send_state({{kind, 0}, {}, setter, request.state.version, request.state.bytes()});
 }
 
-// A server that began anew has another clock.
-void LinkRoom::map_music() {
-  Request& request = requests_[kMusicPlace];
+void LinkRoom::map_times() {
+  map_time(music_);
+  map_time(song_);
+}
+
+template <class Message>
+void LinkRoom::map_time(const Timed<Message>& timed) {
+  Request& request = requests_[wire::place_of({kKindOf<Message>, 0})];
   if (!request.is_open) return;
-  Music music = requested_music_;
-  music.start_time = MonoTime::from_us(link_.clock.to_theirs_us(music.start_time));
+  Message message = timed.requested;
+  message.start_time = MonoTime::from_us(link_.clock.to_theirs_us(message.start_time));
   MessageBuffer buffer;
-  const std::size_t size = encode_for_tunnel(music, buffer);
+  const std::size_t size = encode_for_tunnel(message, buffer);
   request.state.set(request.state.version, {buffer.data(), size});
+}
+
+template <class Message, class Handler>
+bool LinkRoom::deliver_timed(const wire::State& state, Timed<Message>& timed,
+                             const Handler& handler, MonoTime now) {
+  timed.is_known = decode_from_tunnel(state.payload, timed.current);
+  if (timed.is_known && handler) handler(state.setter, *in_our_clock(timed, now), now);
+  return timed.is_known;
 }
 
 bool LinkRoom::on_state(const wire::State& state, MonoTime now) {
@@ -126,10 +163,9 @@ bool LinkRoom::on_state(const wire::State& state, MonoTime now) {
   yield_to(place, state.setter, state.version);
   bool is_good = false;
   if (state.name.kind == wire::StateKind::kMusic) {
-    is_good = decode_from_tunnel(state.payload, current_music_);
-    has_music_ = is_good;
-    if (is_good && link_.handlers.on_music)
-      link_.handlers.on_music(current.setter, *music(now), now);
+    is_good = deliver_timed(state, music_, link_.handlers.on_music, now);
+  } else if (state.name.kind == wire::StateKind::kSong) {
+    is_good = deliver_timed(state, song_, link_.handlers.on_song, now);
   } else {
     Scene scene;
     is_good = decode_from_tunnel(state.payload, scene);
@@ -143,16 +179,7 @@ bool LinkRoom::on_state(const wire::State& state, MonoTime now) {
 
 void LinkRoom::begin_session() {
   current_ = {};
-  has_music_ = false;
-}
-
-std::optional<Music> LinkRoom::music(MonoTime now) const {
-  if (!has_music_) return std::nullopt;
-  Music music = current_music_;
-  music.time = now;
-  music.clock_id = link_.options.clock_id;
-  music.start_time = link_.clock.to_ours(current_music_.start_time.since_zero_us());
-  return music;
+  music_.is_known = song_.is_known = false;
 }
 
 // What holds now may not be what we request.

@@ -1,7 +1,7 @@
-// The room's music and scene: what this house's guests request, told until the server has it or
-// has somebody else's; and what holds.
+// The room's music, song and scene: what this house's guests request, sent until the server has it
+// or has somebody else's; and what is in force.
 //
-// Units/frames: music in the server's clock, unless a name says otherwise.
+// Units/frames: times of music and song in the server's clock, unless a name says otherwise.
 // Ownership:    refers to the link's context.
 // Threads:      none inside; one owner.
 // Failure:      what is impossible, or of a guest who is not here, is counted and dropped.
@@ -19,13 +19,14 @@ class LinkRoom {
   explicit LinkRoom(LinkContext& link) : link_(link) {}
 
   void send(const GuestId& id, const Music& music, MonoTime now);
+  void send(const GuestId& id, const RoomSong& song, MonoTime now);
   void send(const GuestId& id, const Scene& scene, MonoTime now);
   bool on_state(const wire::State& state, MonoTime now);
   void on_ack(const wire::StateAck& ack);
   // A new session: what holds there is not known yet.
   void begin_session();
   // The clocks are mapped: a server that began anew has another one.
-  void map_music();
+  void map_times();
   // Requests that the server has not acknowledged, each handed to `add`.
   template <class Add>
   void each_due(Add add) const {
@@ -39,9 +40,12 @@ class LinkRoom {
     }
   }
 
-  // What holds, in this house's clock as it is mapped now.
-  std::optional<Music> music(MonoTime now) const;
-  const GuestId& music_setter() const { return current_[0].setter; }
+  // The state in force, in this house's clock as it is mapped now.
+  std::optional<Music> music(MonoTime now) const { return in_our_clock(music_, now); }
+  std::optional<RoomSong> song(MonoTime now) const { return in_our_clock(song_, now); }
+  const GuestId& setter(wire::StateKind kind) const {
+    return current_[wire::place_of({kind, 0})].setter;
+  }
 
  private:
   // What a guest of this house wants it to be, until somebody else has set it.
@@ -55,18 +59,41 @@ class LinkRoom {
   };
   struct Current {
     GuestId setter;
-    std::uint32_t version = 0;  // of this session; 0 = not heard yet
+    std::uint32_t version = 0;  // of this session; 0 = not received yet
   };
 
+  // A state with a start time.
+  template <class Message>
+  struct Timed {
+    Message requested;  // in our clock
+    Message current;    // in the server's
+    bool is_known = false;
+  };
+
+  template <class Message>
+  void send_timed(const GuestId& id, const Message& given, Timed<Message>& timed, MonoTime now);
+  template <class Message>
+  void map_time(const Timed<Message>& timed);
+  template <class Message, class Handler>
+  bool deliver_timed(const wire::State& state, Timed<Message>& timed, const Handler& handler,
+                     MonoTime now);
+  template <class Message>
+  std::optional<Message> in_our_clock(const Timed<Message>& timed, MonoTime now) const {
+    if (!timed.is_known) return std::nullopt;
+    Message message = timed.current;
+    message.time = now;
+    message.clock_id = link_.options.clock_id;
+    message.start_time = link_.clock.to_ours(timed.current.start_time.since_zero_us());
+    return message;
+  }
   void make_request(const GuestId& setter, wire::StateKind kind, wire::Bytes payload, MonoTime now);
   void yield_to(std::size_t place, const GuestId& setter, std::uint32_t version);
 
   LinkContext& link_;
   std::array<Request, wire::kRoomStates> requests_;
   std::array<Current, wire::kRoomStates> current_;
-  Music requested_music_;  // in our clock
-  Music current_music_;
-  bool has_music_ = false;
+  Timed<Music> music_;
+  Timed<RoomSong> song_;
 };
 
 }  // namespace dance

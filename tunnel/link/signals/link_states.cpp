@@ -51,6 +51,17 @@ void LinkStates::send(LocalGuest& guest, const Skeleton& skeleton, MonoTime now)
   tell(guest, wire::StateKind::kSkeleton, state, now);
 }
 
+void LinkStates::send(const GuestId& id, const Chat& chat, MonoTime now) {
+  LocalGuest* guest = link_.locals.find(id);
+  if (guest == nullptr) {
+    ++link_.counters.unrouted;
+    return;
+  }
+  constexpr wire::StateName kName{wire::StateKind::kChat, 0};
+  if (chat_.write(*guest, chat, now))
+    tell(*guest, kName.kind, guest->states[wire::place_of(kName)], now);
+}
+
 void LinkStates::repeat(MonoTime now) {
   StateWriter writer([this](wire::Bytes bytes) { link_.send(bytes); });
   const auto add = [&](const wire::State& state) {
@@ -141,8 +152,11 @@ bool LinkStates::deliver(RemoteGuest& remote, const wire::State& state, MonoTime
       return deliver_message<Style>(remote.id, state.payload, link_.handlers.on_style, now);
     case wire::StateKind::kPlacement:
       return deliver_message<Placement>(remote.id, state.payload, link_.handlers.on_placement, now);
+    case wire::StateKind::kChat:
+      return chat_.deliver(remote.id, state.payload, now);
     case wire::StateKind::kMusic:
     case wire::StateKind::kScene:
+    case wire::StateKind::kSong:
     case wire::StateKind::kChannel:
       break;
   }

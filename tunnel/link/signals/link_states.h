@@ -9,19 +9,21 @@
 #pragma once
 
 #include "tunnel/link/signals/link_channels.h"
+#include "tunnel/link/signals/link_chat.h"
 #include "tunnel/link/signals/link_room.h"
 
 namespace dance {
 
 class LinkStates {
  public:
-  LinkStates(LinkContext& link, LinkRoom& room, LinkChannels& channels)
-      : link_(link), room_(room), channels_(channels) {}
+  LinkStates(LinkContext& link, LinkRoom& room, LinkChannels& channels, LinkChat& chat)
+      : link_(link), room_(room), channels_(channels), chat_(chat) {}
 
   void send(LocalGuest& guest, const Skeleton& skeleton, MonoTime now);
   // Avatar, style, placement.
   template <class Message>
   void send(const GuestId& id, wire::StateKind kind, const Message& message, MonoTime now);
+  void send(const GuestId& id, const Chat& chat, MonoTime now);
   // What the server has not acknowledged.
   void repeat(MonoTime now);
 
@@ -39,6 +41,7 @@ class LinkStates {
   LinkContext& link_;
   LinkRoom& room_;
   LinkChannels& channels_;
+  LinkChat& chat_;
 };
 
 }  // namespace dance

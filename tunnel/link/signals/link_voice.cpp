@@ -12,10 +12,6 @@ constexpr Duration kOldestSpoken = Duration::s(2);
 
 void LinkVoice::send(LocalGuest& guest, const Voice& voice, MonoTime now) {
   LinkCounters& counters = link_.counters;
-  if (link_.version < wire::kFirstVoiceVersion) {
-    ++counters.voices_unrouted;
-    return;
-  }
   LinkSender::Stamp times{};
   const bool is_ours = voice.clock_id == link_.options.clock_id && voice.capture_time.is_set();
   if (!is_valid(voice) || (is_ours && now - voice.capture_time > kOldestSpoken) ||

@@ -42,16 +42,19 @@ class NumberText {
 
 Result<std::unique_ptr<NatsMessages>> NatsMessages::connect(const NatsOptions& options,
                                                             Poller& poller, Handlers handlers) {
-  std::unique_ptr<NatsMessages> made(new NatsMessages(options, poller, std::move(handlers)));
+  DANCE_TRY(WakeEvent wake, WakeEvent::create());
+  std::unique_ptr<NatsMessages> made(
+      new NatsMessages(options, std::move(wake), poller, std::move(handlers)));
   DANCE_TRY(NatsHandshake opened, made->connector_.connect_now());
   made->begin(std::move(opened), mono_now());
   return made;
 }
 
-NatsMessages::NatsMessages(const NatsOptions& options, Poller& poller, Handlers handlers)
+NatsMessages::NatsMessages(const NatsOptions& options, WakeEvent wake, Poller& poller,
+                           Handlers handlers)
     : poller_(poller),
       handlers_(std::move(handlers)),
-      connector_(options),
+      connector_(options, std::move(wake)),
       timer_(poller.add_timer(MonoTime(), [this](MonoTime now) { return tick(now); })) {
   waiting_.reserve(2 * kMostWaiting);
   poller_.watch(connector_.fd(), [this](MonoTime now) {

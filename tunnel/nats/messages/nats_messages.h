@@ -58,7 +58,7 @@ class NatsMessages {
   const Counters& counters() const { return counters_; }
 
  private:
-  NatsMessages(const NatsOptions& options, Poller& poller, Handlers handlers);
+  NatsMessages(const NatsOptions& options, WakeEvent wake, Poller& poller, Handlers handlers);
   void begin(NatsHandshake opened, MonoTime now);
   void end();
   void on_readable(MonoTime now);

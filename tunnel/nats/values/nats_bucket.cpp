@@ -32,7 +32,7 @@ std::optional<Error> refusal(natsConnection* connection, const NatsOptions& opti
 
 }  // namespace
 
-Result<NatsBucket> open_nats_bucket(natsConnection* connection, const NatsOptions& options) {
+Result<NatsBucket> try_nats_bucket(natsConnection* connection, const NatsOptions& options) {
   jsOptions wait;
   jsOptions_Init(&wait);
   wait.Wait = kAnswer_ms;
@@ -40,7 +40,7 @@ Result<NatsBucket> open_nats_bucket(natsConnection* connection, const NatsOption
   if (const natsStatus status = natsConnection_JetStream(&stream, connection, &wait);
       status != NATS_OK)
     return tl::make_unexpected(without_store(status, options));
-  NatsHandle<jsCtx> owned(stream);
+  NatsBucket bucket{NatsHandle<jsCtx>(stream), nullptr, 0};
   kvConfig config;
   kvConfig_Init(&config);
   config.Bucket = options.bucket.c_str();
@@ -49,15 +49,26 @@ Result<NatsBucket> open_nats_bucket(natsConnection* connection, const NatsOption
   config.TTL = std::int64_t{options.lasts_s} * 1'000'000'000;
   config.StorageType = js_FileStorage;
   config.Replicas = options.replicas > 0 ? options.replicas : options.urls.size() >= 3 ? 3 : 1;
+  kvStore* store = nullptr;
+  natsStatus status = js_KeyValue(&store, stream, options.bucket.c_str());
+  if (status != NATS_OK) status = js_CreateKeyValue(&store, stream, &config);
+  if (status != NATS_OK) return tl::make_unexpected(without_store(status, options));
+  bucket.store.reset(store);
+  jsStreamInfo* about = nullptr;
+  status = js_GetStreamInfo(&about, stream, ("KV_" + options.bucket).c_str(), nullptr, nullptr);
+  if (status != NATS_OK) return tl::make_unexpected(without_store(status, options));
+  bucket.made_ns = about->Created;
+  jsStreamInfo_Destroy(about);
+  return bucket;
+}
+
+Result<NatsBucket> open_nats_bucket(natsConnection* connection, const NatsOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   for (;;) {
-    kvStore* store = nullptr;
-    natsStatus status = js_KeyValue(&store, stream, options.bucket.c_str());
-    if (status != NATS_OK) status = js_CreateKeyValue(&store, stream, &config);
-    if (status == NATS_OK) return NatsBucket{std::move(owned), NatsHandle<kvStore>(store)};
+    auto bucket = try_nats_bucket(connection, options);
+    if (bucket) return bucket;
     if (const auto refused = refusal(connection, options)) return tl::make_unexpected(*refused);
-    if (status == NATS_NOT_PERMITTED || std::chrono::steady_clock::now() - begin > kStart)
-      return tl::make_unexpected(without_store(status, options));
+    if (std::chrono::steady_clock::now() - begin > kStart) return bucket;
     std::this_thread::sleep_for(kBucketRetry);
   }
 }

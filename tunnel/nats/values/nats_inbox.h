@@ -13,25 +13,25 @@
 #include <mutex>
 #include <vector>
 
+#include "core/net/system/wake_event.h"
 #include "tunnel/nats/nats_handles.h"
 
 namespace dance {
 
 class NatsInbox {
  public:
-  enum class Kind : std::uint8_t { kValue, kBack };
+  enum class Kind : std::uint8_t { kValue, kBack, kEmptied };
   struct Item {
     Kind kind = Kind::kValue;
-    NatsHandle<natsMsg> message;  // nullptr for kBack
+    NatsHandle<natsMsg> message;  // nullptr but for kValue
   };
 
-  NatsInbox();
-  ~NatsInbox();
+  explicit NatsInbox(WakeEvent wake);
   NatsInbox(const NatsInbox&) = delete;
   NatsInbox& operator=(const NatsInbox&) = delete;
 
   void push(Kind kind, NatsHandle<natsMsg> message);
-  int fd() const { return fd_; }
+  int fd() const { return wake_.fd(); }
   // All that wait; valid until the next call.
   std::vector<Item>& take();
   // Whether a value was dropped since this was asked last.
@@ -41,7 +41,7 @@ class NatsInbox {
  private:
   static constexpr std::size_t kMost = 16'384;
 
-  int fd_;
+  WakeEvent wake_;
   std::mutex mutex_;
   std::vector<Item> waiting_;
   std::vector<Item> taken_;

@@ -20,16 +20,16 @@ constexpr auto kRetry = std::chrono::milliseconds(100);
 Result<std::unique_ptr<NatsValues>> NatsValues::open(natsConnection* connection, NatsInbox& inbox,
                                                      const NatsOptions& options) {
   DANCE_TRY(NatsBucket bucket, open_nats_bucket(connection, options));
-  return std::unique_ptr<NatsValues>(
-      new NatsValues(connection, std::move(bucket), options.bucket, inbox));
+  return std::unique_ptr<NatsValues>(new NatsValues(connection, std::move(bucket), options, inbox));
 }
 
-NatsValues::NatsValues(natsConnection* connection, NatsBucket bucket, const std::string& name,
+NatsValues::NatsValues(natsConnection* connection, NatsBucket bucket, NatsOptions options,
                        NatsInbox& inbox)
     : connection_(connection),
       bucket_(std::move(bucket)),
-      stream_name_("KV_" + name),
-      subject_prefix_("$KV." + name + "."),
+      options_(std::move(options)),
+      stream_name_("KV_" + options_.bucket),
+      subject_prefix_("$KV." + options_.bucket + "."),
       inbox_(inbox),
       thread_([this] { run(); }) {}
 
@@ -123,12 +123,30 @@ void NatsValues::run() {
       changed_.notify_all();
       return;
     }
-    if (std::exchange(renews_, false)) to_watch_.insert(watched_.begin(), watched_.end());
+    if (std::exchange(renews_, false)) {
+      find_bucket(lock);
+      to_watch_.insert(watched_.begin(), watched_.end());
+    }
     if (!to_watch_.empty())
       watch_one(lock);
     else if (!unwritten_.empty())
       write_one(lock);
   }
+}
+
+// After a break, and where NATS refuses: NATS may have come back without the bucket, or with one
+// that another server has made since. Its values are gone then, and their owners write them again.
+void NatsValues::find_bucket(std::unique_lock<std::mutex>& lock) {
+  if (ends_) return;
+  lock.unlock();
+  auto found = try_nats_bucket(connection_, options_);
+  lock.lock();
+  if (!found || found->made_ns == bucket_.made_ns) return;
+  bucket_.store = std::move(found->store);
+  bucket_.made_ns = found->made_ns;
+  emptied_.fetch_add(1, std::memory_order_relaxed);
+  to_watch_.insert(watched_.begin(), watched_.end());
+  inbox_.push(NatsInbox::Kind::kEmptied, nullptr);
 }
 
 void NatsValues::write_one(std::unique_lock<std::mutex>& lock) {
@@ -151,6 +169,7 @@ void NatsValues::write_one(std::unique_lock<std::mutex>& lock) {
   }
   failed_.fetch_add(1, std::memory_order_relaxed);
   unwritten_.emplace(key, value);  // unless there is a newer one
+  find_bucket(lock);
   changed_.wait_for(lock, kRetry, [this] { return ends_; });
 }
 
@@ -168,6 +187,7 @@ void NatsValues::watch_one(std::unique_lock<std::mutex>& lock) {
   } else if (is_wanted) {
     failed_.fetch_add(1, std::memory_order_relaxed);
     to_watch_.insert(keys);
+    find_bucket(lock);
     changed_.wait_for(lock, kRetry, [this] { return ends_; });
   }
 }

@@ -5,7 +5,8 @@
 // Ownership:    copies what is written; connection and inbox must outlive it, and the connection be
 //               closed before it goes.
 // Threads:      all calls from one thread, renew() from any.
-// Failure:      open() says what is missing. What cannot be written is written again until it is.
+// Failure:      open() says what is missing. What cannot be written is written again until it is. A
+//               bucket that NATS has lost is made again, and the inbox gets kEmptied.
 #pragma once
 
 #include <condition_variable>
@@ -54,21 +55,24 @@ class NatsValues {
   void flush(std::chrono::milliseconds longest);
   std::uint64_t failed() const { return failed_.load(std::memory_order_relaxed); }
   std::size_t unwritten() const;
+  // Number of times that the bucket was found to be a new one: NATS came back with an empty disk.
+  std::uint64_t emptied() const { return emptied_.load(std::memory_order_relaxed); }
 
  private:
   using Value = std::optional<std::vector<std::uint8_t>>;  // none: erase
 
-  NatsValues(natsConnection* connection, NatsBucket bucket, const std::string& name,
-             NatsInbox& inbox);
+  NatsValues(natsConnection* connection, NatsBucket bucket, NatsOptions options, NatsInbox& inbox);
   void write(std::string_view key, Value value);
   void run();
   void write_one(std::unique_lock<std::mutex>& lock);
   void watch_one(std::unique_lock<std::mutex>& lock);
+  void find_bucket(std::unique_lock<std::mutex>& lock);
   NatsHandle<natsSubscription> subscribe(const std::string& keys);
   void end_subscription(const std::string& keys);
 
   natsConnection* connection_;
-  NatsBucket bucket_;
+  NatsBucket bucket_;  // the thread's, from open() on
+  NatsOptions options_;
   std::string stream_name_;
   std::string subject_prefix_;
   NatsInbox& inbox_;
@@ -83,6 +87,7 @@ class NatsValues {
   bool ends_ = false;
   bool has_ended_ = false;
   std::atomic<std::uint64_t> failed_{0};
+  std::atomic<std::uint64_t> emptied_{0};
   std::map<std::string, NatsHandle<natsSubscription>> subscriptions_;  // the thread's
   std::vector<NatsHandle<natsSubscription>> ended_;  // that the reading thread may still use
   std::thread thread_;

@@ -19,7 +19,13 @@ bool may_have_guests(const Access& access) { return access.role != Role::kListen
 
 bool may_send_records(const Access& access) { return may_have_guests(access); }
 
+OwnerKey owner_key_of(const Access& access) { return {access.name, access.any_name}; }
+
 bool may_remove_guests(const Access& access) { return access.role == Role::kHost; }
+
+bool may_set_song(const Access& access, bool is_locked, bool locks) {
+  return access.role == Role::kHost || (may_have_guests(access) && !is_locked && !locks);
+}
 
 bool may_set_room_state(const Access& access, bool room_has_host) {
   switch (access.role) {

@@ -12,7 +12,8 @@ ServerContext::ServerContext(const ServerLimits& of_server, PeerSink& to)
       sink(to),
       sessions(of_server.sessions + of_server.remote_servers),
       rooms(of_server.rooms),
-      remote_receivers(of_server.remote_servers) {
+      remote_receivers(of_server.remote_servers),
+      keys(of_server.sessions) {
   DANCE_ASSERT(limits.guests_per_room <= wire::kSlotsPerPage, limits.guests_per_room);
   by_peer.reserve(limits.sessions);
   newcomers.reserve(limits.sessions);
@@ -21,6 +22,37 @@ ServerContext::ServerContext(const ServerLimits& of_server, PeerSink& to)
   speaking.reserve(limits.sessions);
   changed_rooms.reserve(limits.rooms);
   for (ServerRoom& room : rooms) room.members.reserve(sessions.size());
+}
+
+std::optional<wire::Refusal> ServerContext::full_for(const Access& access, bool wants_session,
+                                                     bool wants_room) const {
+  const KeyQuota quota = quota_of(access, limits);
+  if (wants_session) {
+    if (by_peer.size() == limits.sessions) return wire::Refusal::kServerFull;
+    if (keys.sessions_of(access.name) >= quota.sessions) return wire::Refusal::kKeySessions;
+  }
+  if (wants_room) {
+    std::size_t in_use = 0, opened = 0;
+    for (const ServerRoom& room : rooms) {
+      in_use += room.in_use ? 1 : 0;
+      opened += room.in_use && room.opened_by == access.name ? 1 : 0;
+    }
+    if (in_use == rooms.size()) return wire::Refusal::kServerFull;
+    if (opened >= quota.rooms) return wire::Refusal::kKeyRooms;
+  }
+  return std::nullopt;
+}
+
+bool ServerContext::admits(ServerSession& session, std::size_t datagram_bytes, MonoTime now) {
+  if (!session.admits(datagram_bytes, now)) {
+    reject(ServerReject::kSessionRate);
+    return false;
+  }
+  if (!session.access.is_local && !keys.admits(session.key_use, datagram_bytes, now)) {
+    reject(ServerReject::kKeyRate);
+    return false;
+  }
+  return true;
 }
 
 void ServerContext::send(PeerId to, wire::Bytes bytes) {

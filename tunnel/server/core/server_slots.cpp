@@ -24,7 +24,7 @@ std::optional<std::uint8_t> ServerSlots::find(const ServerRoom& room, const Gues
 }
 
 std::optional<std::uint8_t> ServerSlots::add_guest(std::size_t index, const GuestId& id,
-                                                   std::uint64_t link_token) {
+                                                   std::uint64_t link_token, const OwnerKey& key) {
   ServerSession& session = server_.sessions[index];
   ServerRoom& room = server_.rooms[session.room];
   const auto slot = free_slot(room, session.is_remote());
@@ -35,6 +35,7 @@ std::optional<std::uint8_t> ServerSlots::add_guest(std::size_t index, const Gues
   free->id = id;
   room.name_hashes[*slot] = hash_of(id);
   free->link_token = link_token;
+  free->key = key;
   free->generation = room.next_generation++;
   free->records = TokenBucket(server_.limits.records_per_second, server_.limits.record_burst);
   free->state_changes =
@@ -102,7 +103,7 @@ std::uint8_t ServerSlots::relocate(ServerRoom& room, std::uint8_t slot) {
 }
 
 // Links' own guests from below, those of other servers from the middle of the first page down and
-// then in the second: so that links of version 4 see as many as they can.
+// then in the second: records of the first page have the shorter headers.
 std::optional<std::uint8_t> ServerSlots::free_slot(const ServerRoom& room, bool is_remote) {
   constexpr int kHalf = wire::kSlotsPerPage / 2, kPage = wire::kSlotsPerPage;
   const auto free_in = [&](int from, int to, int step) -> std::optional<std::uint8_t> {

@@ -18,7 +18,7 @@ class ServerSlots {
   static std::optional<std::uint8_t> find(const ServerRoom& room, const GuestId& guest);
   // Nothing where the room is full.
   std::optional<std::uint8_t> add_guest(std::size_t session, const GuestId& id,
-                                        std::uint64_t link_token);
+                                        std::uint64_t link_token, const OwnerKey& key);
   void remove_guest(std::size_t room, std::uint8_t slot);
   // The guest comes through another session now, and keeps its states; also its slot and
   // generation, where a link that comes to have it may have that slot.

@@ -17,6 +17,7 @@
 #include "core/base/fixed_list.h"
 #include "core/base/time.h"
 #include "core/base/token_bucket.h"
+#include "tunnel/policy/chat_budget.h"
 #include "tunnel/server/core/access.h"
 #include "tunnel/server/core/cluster_port.h"
 #include "tunnel/server/core/link_meter.h"
@@ -38,6 +39,11 @@ namespace dance {
 struct ServerLimits {
   std::size_t sessions = 256;
   std::size_t rooms = 64;
+  // Limits of one person's key; quota_of() in tunnel/server/core/key_quota.h has those of others.
+  std::size_t sessions_per_key = 8;
+  std::size_t rooms_per_key = 4;
+  std::size_t files_per_key = 64;
+  std::size_t guests_per_key = wire::kMaxGuestsPerLink;  // in one room
   // Through links of this server; those of others come to them, up to kMaxGuestsPerRoom together.
   std::size_t guests_per_room = wire::kSlotsPerPage;
   std::size_t listeners_per_room = 64;  // links without guests
@@ -69,9 +75,10 @@ struct ServerLimits {
   double state_changes_per_second = 60.0;
   double state_change_burst = 60.0;
   // Files of avatars, kept while their room lives: in all (0 = none, as an older server), and of
-  // the guests of one session.
+  // the guests of one session or of one person's key.
   std::size_t file_bytes = std::size_t{128} << 20;
   std::size_t file_bytes_per_session = std::size_t{32} << 20;
+  std::size_t files = 512;
   // That go out: to all together, which an uplink at home of 20 Mbit/s bears, and to one session,
   // of which links ask half unless told otherwise.
   double file_bytes_per_second = 2e6;
@@ -109,15 +116,17 @@ enum class ServerReject : std::uint8_t {
   kChannelRate,
   kFileNotAsked,
   kVoiceRate,
+  kKeyRate,
+  kChatRate,
   kCount,
 };
 constexpr std::size_t kServerRejects = static_cast<std::size_t>(ServerReject::kCount);
 // As the log and the summary say it.
 constexpr std::array<std::string_view, kServerRejects> kServerRejectNames{
-    "too_short",  "malformed",    "unknown_type", "version",        "old_hello",
-    "no_session", "session_rate", "guest_rate",   "foreign_slot",   "bad_time",
-    "bad_ack",    "late",         "duplicate",    "refused",        "not_allowed",
-    "overruled",  "state_rate",   "channel_rate", "file_not_asked", "voice_rate"};
+    "too_short",      "malformed",  "unknown_type", "version",   "old_hello",  "no_session",
+    "session_rate",   "guest_rate", "foreign_slot", "bad_time",  "bad_ack",    "late",
+    "duplicate",      "refused",    "not_allowed",  "overruled", "state_rate", "channel_rate",
+    "file_not_asked", "voice_rate", "key_rate",     "chat_rate"};
 
 struct ServerCounters {
   std::uint64_t datagrams_in = 0;
@@ -132,7 +141,7 @@ struct ServerCounters {
   std::uint64_t datagrams_acked = 0;   // of records, by their receivers
   std::uint64_t voices_in = 0;         // packets of voices that were taken
   std::uint64_t voices_out = 0;        // once per receiver
-  std::uint64_t voices_crowded = 0;    // not sent: so many others speak, and louder
+  std::uint64_t voices_crowded = 0;    // not sent: all places for talkers are taken
   std::uint64_t voices_held_back = 0;  // not sent: the receiver's line bears its poses, not these
   std::uint64_t voice_bytes_out = 0;   // of bytes_out
   std::uint64_t intra_frames_wanted = 0;  // by newcomers, and by who could not decode
@@ -178,6 +187,7 @@ struct ServerSession {
   bool in_use = false;
   PeerId peer = 0;
   Access access;
+  std::size_t key_use = 0;  // of its key, in the server's KeyUses; of a link only
   std::uint64_t token = 0;
   std::uint64_t epoch = 0;  // another one for the link = nothing earlier counts
   MonoTime last_heard;
@@ -186,10 +196,6 @@ struct ServerSession {
   // Of a link kMaxGuestsPerLink at most; of another server all of its guests in the room.
   FixedList<std::uint8_t, wire::kMaxGuestsPerRoom> slots;
   std::size_t remote = kNoRemote;  // another server of the cluster, not a link: in remote_receivers
-  std::uint8_t version = wire::kWireVersion;  // of its hello
-  bool can_name(std::uint8_t slot) const {
-    return version >= wire::kWireVersion || slot < wire::kSlotsPerPage;
-  }
   bool is_remote() const { return remote != kNoRemote; }
   // Counts a datagram: false where the link sends more than it may.
   bool admits(std::size_t datagram_bytes, MonoTime now) {
@@ -255,6 +261,7 @@ struct ServerGuest {
   std::size_t owner = 0;         // session
   bool is_wanted = false;        // of another server: by a link here, and that server is told so
   std::uint64_t link_token = 0;  // of the link that brought it, whichever server that speaks to
+  OwnerKey key;                  // of that link
   StreamGate poses;
   StreamGate hands;
   ArrivalJitter jitter;  // of poses
@@ -273,6 +280,7 @@ struct ServerGuest {
   InterestFilter::Counts counts() const { return {base_count, hands_count, told.base_log2}; }
   std::array<RetainedState, wire::kGuestStates> states;
   TokenBucket state_changes;
+  ChatBudget chat;
   std::array<ChannelGate, kMaxChannelsPerGuest> channels{};
   TokenBucket channel_records;
   TokenBucket channel_bytes;
@@ -282,6 +290,7 @@ struct ServerGuest {
 struct ServerRoom {
   bool in_use = false;
   wire::RoomName name;
+  GuestId opened_by;  // name of the key
   CodecName codec;
   std::uint32_t roster_version = 1;
   bool is_listed = false;  // in the list of those with something to tell

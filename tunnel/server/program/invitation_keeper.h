@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "core/net/poller.h"
+#include "core/net/system/wake_event.h"
 #include "tunnel/seal/seal_server.h"
 #include "tunnel/server/program/key_store.h"
 
@@ -33,18 +34,18 @@ class InvitationKeeper {
   using OnKept = std::function<void(const Kept&)>;
 
   // `on_kept` is called in the poller's thread.
-  InvitationKeeper(std::unique_ptr<KeyStore> store, Poller& poller, OnKept on_kept);
+  InvitationKeeper(std::unique_ptr<KeyStore> store, WakeEvent wake, Poller& poller, OnKept on_kept);
   ~InvitationKeeper();
   InvitationKeeper(const InvitationKeeper&) = delete;
   InvitationKeeper& operator=(const InvitationKeeper&) = delete;
 
-  void bind(SealServer::PeerId peer, const GuestId& guest, const PresharedKey& lasting);
+  void bind(SealServer::PeerId peer, const GuestId& guest, const PublicKey& house);
 
  private:
-  struct Wish {
+  struct Request {
     SealServer::PeerId peer = 0;
     GuestId guest;
-    PresharedKey lasting;
+    PublicKey house;
   };
   void run();
   void take_kept();
@@ -52,12 +53,12 @@ class InvitationKeeper {
   std::unique_ptr<KeyStore> store_;
   Poller& poller_;
   OnKept on_kept_;
-  int wake_fd_ = -1;
+  WakeEvent wake_;
   std::mutex mutex_;
   std::condition_variable wakes_;
-  std::deque<Wish> wishes_;  // guarded; the first is under way
-  std::deque<Kept> kept_;    // guarded
-  bool ends_ = false;        // guarded
+  std::deque<Request> requests_;  // guarded; the first is under way
+  std::deque<Kept> kept_;         // guarded
+  bool ends_ = false;             // guarded
   std::thread thread_;
 };
 

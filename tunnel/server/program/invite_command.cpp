@@ -3,20 +3,22 @@
 #include <unistd.h>
 
 #include <charconv>
-#include <cstdio>
 
+#include "core/net/machine_addresses.h"
 #include "core/net/udp_socket.h"
+#include "core/program/standard_output.h"
 #include "core/program/talk.h"
 #include "tunnel/invitation/qr_code.h"
-#include "tunnel/seal/key_files.h"
-#include "tunnel/seal/utc_text.h"
+#include "tunnel/seal/keys/key_files.h"
+#include "tunnel/seal/keys/utc_text.h"
+#include "tunnel/server/program/secret_delivery.h"
 #include "tunnel/server/server.h"
 
 namespace dance {
 namespace {
 
 static_assert(kInvitationPort == kDefaultServerPort);
-constexpr std::int64_t kShortest_s = 60, kLongest_s = 90 * 24 * 3600;
+constexpr std::int64_t kShortest_s = 60, kDay_s = 24 * 3600, kMostDays = 90;
 
 // The address that this machine would speak to others from; nothing is sent.
 Result<std::string> own_address() {
@@ -28,11 +30,15 @@ Result<std::string> own_address() {
     const std::string text = socket->local_address().with_port(1).to_string();
     return text.substr(0, text.rfind(':'));
   }
+  // Guests of this network reach the server even if it has no default route.
+  for (const std::string& address : machine_addresses())
+    return address.find(':') == std::string::npos ? address : "[" + address + "]";
   return fail(
       "this machine has no address in a network: say with --address HOST how guests reach its "
       "server");
 }
 
+// The caller sets the keys of the invitation.
 Result<Invitation> invitation_of(const KeyEntry& entry, const std::string& address,
                                  std::uint16_t port, std::int64_t until_s) {
   Invitation made;
@@ -46,7 +52,6 @@ Result<Invitation> invitation_of(const KeyEntry& entry, const std::string& addre
   made.room = entry.room;
   made.guest = entry.name;
   made.role = entry.kind;
-  made.key = entry.invitation->key;
   made.until_s = until_s;
   return made;
 }
@@ -59,25 +64,32 @@ Result<void> check_qr_file(const std::string& path) {
 
 }  // namespace
 
-Result<std::int64_t> parse_validity_s(const std::string& text) {
+Result<std::int64_t> parse_validity_s(const std::string& option, const std::string& text,
+                                      std::int64_t most_days) {
   std::int64_t count = 0;
   const auto read = std::from_chars(text.data(), text.data() + text.size(), count);
   const bool has_one_letter = read.ec == std::errc() && read.ptr + 1 == text.data() + text.size();
   const char unit = has_one_letter ? *read.ptr : '\0';
-  const std::int64_t unit_s = unit == 'm' ? 60 : unit == 'h' ? 3600 : unit == 'd' ? 24 * 3600 : 0;
-  if (unit_s == 0 || count < 1 || count > kLongest_s / unit_s || count * unit_s < kShortest_s)
-    return fail("--for '" + text + "': write how long, 90m, 24h or 7d, up to 90d");
+  const std::int64_t unit_s = unit == 'm' ? 60 : unit == 'h' ? 3600 : unit == 'd' ? kDay_s : 0;
+  if (unit_s == 0 || count < 1 || count > most_days * kDay_s / unit_s ||
+      count * unit_s < kShortest_s)
+    return fail(option + " '" + text + "': write how long, 90m, 24h or 7d, up to " +
+                std::to_string(most_days) + "d");
   return count * unit_s;
 }
 
 Result<void> run_invite_command(KeyEntry entry, const std::string& address, std::uint16_t port,
                                 const InviteOptions& options, KeyStore& store) {
-  DANCE_TRY(const std::int64_t valid_s, parse_validity_s(options.valid_for));
+  DANCE_TRY(const std::int64_t valid_s, parse_validity_s("--for", options.valid_for, kMostDays));
   if (auto checked = check_qr_file(options.qr_file); !checked) return checked;
   const std::int64_t until_s = (utc_now_s() + valid_s) / 60 * 60;
+  if (entry.until_s && *entry.until_s < until_s)
+    return fail("--key-for is shorter than --for: the key would expire before the invitation");
   entry.has_key = false;
-  entry.invitation = InvitationKey{PresharedKey::make(), until_s, InvitationState::kOpen};
-  DANCE_TRY(const Invitation invitation, invitation_of(entry, address, port, until_s));
+  DANCE_TRY(Invitation invitation, invitation_of(entry, address, port, until_s));
+  DANCE_TRY(invitation.server_key, store.claim_server_key());
+  invitation.key = PrivateKey::make();
+  entry.invitation = InvitationKey{invitation.key.public_key(), until_s, InvitationState::kOpen};
   const std::string line = text_of(invitation);
   // It must be one that the other side can read.
   if (const auto back = parse_invitation(line); !back || !(*back == invitation))
@@ -96,10 +108,10 @@ Result<void> run_invite_command(KeyEntry entry, const std::string& address, std:
                 ", and needs no invitation; --remove-key takes it away, and another device can "
                 "be invited as " +
                 std::string(entry.name.view().substr(0, kMaxGuestIdLength - 2)) + "-2");
-  if (!options.qr_file.empty())
-    if (auto written = write_secret(options.qr_file, picture); !written) return written;
-  std::printf("%s\n", line.c_str());
-  if (options.has_qr) std::printf("\n%s", drawn.c_str());
+  Result<void> written;
+  if (!options.qr_file.empty()) written = write_secret(options.qr_file, picture);
+  if (written) written = write_to_stdout(line + "\n" + (options.has_qr ? "\n" + drawn : ""));
+  if (auto kept = keep_or_revoke(written, entry.name.c_str(), store); !kept) return kept;
   if (known != nullptr && known->is_invited())
     talk::info("the invitation that {} had before opens nothing any more", entry.name.view());
   if (address.empty())

@@ -22,11 +22,13 @@ struct InviteOptions {
   std::string qr_file;  // .svg
 };
 
-// 90m, 24h, 7d: from a minute to ninety days.
-Result<std::int64_t> parse_validity_s(const std::string& text);
+// 90m, 24h, 7d: from a minute to `most_days`. `option` stands in errors.
+Result<std::int64_t> parse_validity_s(const std::string& option, const std::string& text,
+                                      std::int64_t most_days);
 
-// `entry`: name, kind and room. `address`: HOST[:PORT] as guests reach the server; "" = this
-// machine's address in its own network. `port`: where the address names none.
+// `entry`: name, kind, room, and when the key that comes of the invitation expires.
+// `address`: HOST[:PORT] as guests reach the server; "" = this machine's address in its own
+// network. `port`: where the address names none.
 Result<void> run_invite_command(KeyEntry entry, const std::string& address, std::uint16_t port,
                                 const InviteOptions& options, KeyStore& store);
 

@@ -1,7 +1,7 @@
 #include "tunnel/server/program/invited_guests.h"
 
 #include "core/program/talk.h"
-#include "tunnel/seal/utc_text.h"
+#include "tunnel/seal/keys/utc_text.h"
 
 namespace dance {
 
@@ -13,15 +13,15 @@ void read_keys_again(ServerKeys& keys, Server& server) {
   talk::info("{} keys now", keys.guest_count());
 }
 
-InvitedGuests::InvitedGuests(ServerKeys& keys, Poller& poller)
+InvitedGuests::InvitedGuests(ServerKeys& keys, WakeEvent wake, Poller& poller)
     : keys_(keys),
-      keeper_(file_key_store(keys.path()), poller,
+      keeper_(file_key_store(keys.path()), std::move(wake), poller,
               [this](const InvitationKeeper::Kept& kept) { on_kept(kept); }) {}
 
-void InvitedGuests::on_binding(PeerId peer, const KeyEntry& entry, const PresharedKey& lasting) {
-  const auto settled = keys_.ring()->settled_binding(entry.name.view(), lasting, utc_now_s());
+void InvitedGuests::on_binding(PeerId peer, const KeyEntry& entry, const PublicKey& house) {
+  const auto settled = keys_.ring()->settled_binding(entry.name.view(), house, utc_now_s());
   if (settled) return server_->answer_binding(peer, *settled);
-  keeper_.bind(peer, entry.name, lasting);
+  keeper_.bind(peer, entry.name, house);
 }
 
 void InvitedGuests::on_kept(const InvitationKeeper::Kept& kept) {

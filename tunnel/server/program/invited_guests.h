@@ -19,11 +19,11 @@ void read_keys_again(ServerKeys& keys, Server& server);
 
 class InvitedGuests {
  public:
-  InvitedGuests(ServerKeys& keys, Poller& poller);
+  InvitedGuests(ServerKeys& keys, WakeEvent wake, Poller& poller);
   // Before the first datagram.
   void set_server(Server& server) { server_ = &server; }
   // As ServerOptions has it.
-  void on_binding(PeerId peer, const KeyEntry& entry, const PresharedKey& lasting);
+  void on_binding(PeerId peer, const KeyEntry& entry, const PublicKey& house);
 
  private:
   void on_kept(const InvitationKeeper::Kept& kept);

@@ -24,7 +24,7 @@ inline std::optional<double> ms_of(const std::optional<Duration>& duration) {
 }
 
 // {"a":1,"b":[…]}: members and elements in the order in which they are written.
-class JsonText {
+class StatusJsonText {
  public:
   void open(char bracket) {
     out_ += bracket;
@@ -53,6 +53,16 @@ class JsonText {
   void member(std::string_view name, std::string_view value) {
     key(name);
     text(value);
+  }
+  // A value that is plain text already (core/base/text/plain_text.h), in UTF-8.
+  void plain_member(std::string_view name, std::string_view value) {
+    key(name);
+    out_ += '"';
+    for (const char c : value) {
+      if (c == '"' || c == '\\') out_ += '\\';
+      out_ += c;
+    }
+    out_ += '"';
   }
   void member(std::string_view name, std::uint64_t value) {
     key(name);

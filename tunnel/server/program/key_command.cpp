@@ -2,13 +2,17 @@
 
 #include <cstdio>
 
+#include "core/program/standard_output.h"
 #include "core/program/talk.h"
-#include "tunnel/seal/house_keys.h"
-#include "tunnel/seal/key_files.h"
-#include "tunnel/seal/utc_text.h"
+#include "tunnel/seal/keys/house_keys.h"
+#include "tunnel/seal/keys/key_files.h"
+#include "tunnel/seal/keys/utc_text.h"
+#include "tunnel/server/program/secret_delivery.h"
 
 namespace dance {
 namespace {
+
+constexpr std::int64_t kMostDaysOfKey = 3650;
 
 // Of a new key or of an invitation, without either.
 Result<KeyEntry> entry_of(const KeyCommand& command) {
@@ -31,11 +35,18 @@ Result<KeyEntry> entry_of(const KeyCommand& command) {
                   "': a room's name is 1 to 24 characters of a-z, 0-9 and '-'");
     entry.room = *room;
   }
+  if (!command.key_for.empty()) {
+    DANCE_TRY(const std::int64_t valid_s,
+              parse_validity_s("--key-for", command.key_for, kMostDaysOfKey));
+    entry.until_s = (utc_now_s() + valid_s) / 60 * 60;
+  }
   return entry;
 }
 
 std::string state_of(const KeyEntry& entry, std::int64_t now_s) {
-  if (!entry.is_invited()) return "";
+  if (!entry.is_invited() && !entry.until_s) return "";
+  if (!entry.is_invited())
+    return (entry.has_expired(now_s) ? "key expired " : "key until ") + utc_shown(*entry.until_s);
   return (now_s < entry.invitation->until_s ? "invited, until " : "invitation expired ") +
          utc_shown(entry.invitation->until_s);
 }
@@ -54,10 +65,50 @@ void print_list(const KeyRing& ring) {
 
 }  // namespace
 
+void add_key_options(CommandLine& line, KeyCommand& keys) {
+  line.add("--invite", keys.invite,
+           "makes an invitation for NAME, prints the link that NAME opens, and ends")
+      .guest_name();
+  line.add("--for", keys.invitation.valid_for, "how long --invite is good: 90m, 24h, 7d; up to 90d")
+      .shows_default();
+  line.add(
+      "--key-for", keys.key_for,
+      "how long the key of --new-guest, --new-room-key or --invite opens rooms: 24h, 90d; up to "
+      "3650d (else until it is removed)");
+  line.add_flag("--qr", keys.invitation.has_qr, "shows --invite as a QR code too");
+  line.add("--qr-file", keys.invitation.qr_file,
+           "writes the QR code of --invite into an .svg file that you alone may read");
+  line.add("--new-guest", keys.new_guest,
+           "makes a key for NAME, prints the line that NAME pastes, and ends")
+      .guest_name();
+  line.add(
+      "--public-key", keys.public_key,
+      "with --new-guest: the key that the guest's dance key --public prints, so that no secret "
+      "has to be sent");
+  line.add_choice<KeyKind>(
+      "--role", keys.kind,
+      {{"guest", KeyKind::kGuest}, {"host", KeyKind::kHost}, {"listener", KeyKind::kListener}},
+      "what --invite or --new-guest may do: dance; set music and scene too; only hear");
+  line.add("--room", keys.room, "the only room that --invite or --new-guest may enter");
+  line.add("--new-room-key", keys.new_room_key,
+           "makes a key for all who come to ROOM, prints its line, and ends")
+      .guest_name();
+  line.add("--address", keys.address,
+           "HOST[:PORT] as guests reach this server, for the line that they get");
+  line.add("--remove-key", keys.remove,
+           "takes NAME's key or invitation away: NAME is out at once; and ends")
+      .check(
+          [](const std::string& name) { return std::string(name.empty() ? "names no key" : ""); });
+  line.add_flag("--list-keys", keys.list,
+                "the server's public key, and whose keys and open invitations there are; and ends");
+}
+
 Result<void> run_key_command(const KeyCommand& command, KeyStore& store) {
   if (command.list) {
     DANCE_TRY(const KeyRing ring, store.read());
+    DANCE_TRY(const auto server_key, store.read_server_key());
     print_list(ring);
+    if (server_key) talk::info("the server's public key is {}", server_key->text());
     return {};
   }
   if (!command.remove.empty()) {
@@ -73,12 +124,22 @@ Result<void> run_key_command(const KeyCommand& command, KeyStore& store) {
   DANCE_TRY(KeyEntry entry, entry_of(command));
   if (!command.invite.empty())
     return run_invite_command(entry, command.address, command.port, command.invitation, store);
-  entry.key = PresharedKey::make();
   HouseKey line;
   line.name = entry.name;
   line.room = entry.room;
-  line.key = entry.key;
+  if (command.public_key.empty()) {
+    line.grant = PrivateKey::make();
+    entry.key = line.grant->public_key();
+  } else {
+    const auto house = PublicKey::parse(command.public_key);
+    if (!house || !house->is_on_curve())
+      return fail(
+          "--public-key is no key of a house: it has 44 characters, and the guest's dance "
+          "key --public prints it");
+    entry.key = *house;
+  }
   if (!command.address.empty()) line.server = server_name_of(command.address, 0);
+  DANCE_TRY(line.server_key, store.claim_server_key());
   // The line must be one that the other side can read.
   if (const auto back = HouseKey::parse(line.line()); !back || back->title() != line.title())
     return fail("--address '" + command.address + "' is no HOST or HOST:PORT");
@@ -86,7 +147,10 @@ Result<void> run_key_command(const KeyCommand& command, KeyStore& store) {
   if (!is_new)
     return fail("'" + std::string(entry.name.view()) + "' has a key or an invitation already in " +
                 store.name() + "; --remove-key takes it away");
-  std::printf("%s\n", line.line().c_str());
+  if (auto kept = keep_or_revoke(write_to_stdout(line.line() + "\n"), entry.name.c_str(), store);
+      !kept)
+    return kept;
+  if (entry.until_s) talk::info("opens rooms until {}", utc_shown(*entry.until_s));
   return {};
 }
 

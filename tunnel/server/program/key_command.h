@@ -10,6 +10,7 @@
 
 #include <string>
 
+#include "core/program/command_line.h"
 #include "tunnel/server/program/invite_command.h"
 #include "tunnel/server/program/key_store.h"
 
@@ -23,14 +24,18 @@ struct KeyCommand {
   std::string remove;
   bool list = false;
   KeyKind kind = KeyKind::kGuest;
-  std::string room;     // the only one that the key opens; "" = every room
-  std::string address;  // HOST[:PORT] as guests reach this server, for the line that they get
+  std::string public_key;  // of the new guest's house; "" = a grant is made
+  std::string key_for;     // as 90d: how long the key opens rooms; "" = until it is removed
+  std::string room;        // the only one that the key opens; "" = every room
+  std::string address;     // HOST[:PORT] as guests reach this server, for the line that they get
   std::uint16_t port = kInvitationPort;  // where `address` names none
   bool is_given() const {
     return !new_guest.empty() || !invite.empty() || !new_room_key.empty() || !remove.empty() ||
            list;
   }
 };
+
+void add_key_options(CommandLine& line, KeyCommand& keys);
 
 // What it has to say goes to stdout: the line to paste, the list.
 Result<void> run_key_command(const KeyCommand& command, KeyStore& store);

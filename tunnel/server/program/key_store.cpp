@@ -1,13 +1,19 @@
 #include "tunnel/server/program/key_store.h"
 
+#include <chrono>
+#include <thread>
+
 #include "core/program/talk.h"
 #include "tunnel/nats/values/nats_store.h"
-#include "tunnel/seal/key_files.h"
-#include "tunnel/seal/utc_text.h"
+#include "tunnel/seal/keys/key_files.h"
+#include "tunnel/seal/keys/utc_text.h"
 #include "tunnel/server/program/cluster/cluster_keys.h"
 
 namespace dance {
 namespace {
+
+constexpr int kReads = 20;
+constexpr std::chrono::milliseconds kReadAgain{100};
 
 class FileKeyStore final : public KeyStore {
  public:
@@ -15,17 +21,31 @@ class FileKeyStore final : public KeyStore {
 
   std::string name() const override { return path_; }
   Result<KeyRing> read() override { return load_server_keys(path_); }
+  Result<std::optional<PublicKey>> read_server_key() override {
+    DANCE_TRY(const PublicKey key, claim_server_key());
+    return std::optional(key);
+  }
+  Result<PublicKey> claim_server_key() override {
+    DANCE_TRY(const PrivateKey identity, server_identity(path_));
+    return identity.public_key();
+  }
   Result<bool> add(const KeyEntry& entry) override {
-    return change([&](KeyRing& ring) { return ring.add(entry); });
+    return change([&](KeyRing& ring) {
+      ring.remove_expired(entry.name.view(), utc_now_s());
+      return ring.add(entry);
+    });
   }
   Result<bool> invite(const KeyEntry& entry) override {
-    return change([&](KeyRing& ring) { return ring.invite(entry); });
+    return change([&](KeyRing& ring) {
+      ring.remove_expired(entry.name.view(), utc_now_s());
+      return ring.invite(entry);
+    });
   }
-  Result<Binding> bind(const std::string& name, const PresharedKey& lasting) override {
+  Result<Binding> bind(const std::string& name, const PublicKey& house) override {
     Binding binding = Binding::kUnknown;
     DANCE_TRY([[maybe_unused]] const bool is_written, change([&](KeyRing& ring) {
-                const auto settled = ring.settled_binding(name, lasting, utc_now_s());
-                binding = settled ? *settled : ring.bind(name, lasting, utc_now_s());
+                const auto settled = ring.settled_binding(name, house, utc_now_s());
+                binding = settled ? *settled : ring.bind(name, house, utc_now_s());
                 return !settled;
               }));
     return binding;
@@ -52,8 +72,9 @@ class FileKeyStore final : public KeyStore {
 
 class ClusterKeyStore final : public KeyStore {
  public:
-  ClusterKeyStore(const NatsOptions& options, std::unique_ptr<NatsStore> store)
-      : name_("the cluster at " + shown_urls(options)), store_(std::move(store)) {}
+  ClusterKeyStore(const NatsOptions& options, const PublicKey& own,
+                  std::unique_ptr<NatsStore> store)
+      : name_("the cluster at " + shown_urls(options)), own_(own), store_(std::move(store)) {}
 
   std::string name() const override { return name_; }
   Result<KeyRing> read() override {
@@ -67,6 +88,28 @@ class ClusterKeyStore final : public KeyStore {
     for (const auto& [name, entry] : keys.entries()) ring.add(entry);
     return ring;
   }
+  Result<std::optional<PublicKey>> read_server_key() override {
+    DANCE_TRY(const auto values, store_->read_all());
+    const auto kept = values.find(std::string(kClusterIdentity));
+    return kept == values.end() ? std::nullopt : PublicKey::parse(kept->second);
+  }
+  Result<PublicKey> claim_server_key() override {
+    DANCE_TRY(const bool is_first, store_->add(kClusterIdentity, own_.text()));
+    if (is_first) {
+      talk::info(
+          "this machine's server-identity.key is the cluster's from now on: copy it to each "
+          "server");
+      return own_;
+    }
+    DANCE_TRY(auto kept, read_server_key());
+    // A NATS server may not know yet a value that another one has accepted.
+    for (int i = 0; i < kReads && !kept; ++i) {
+      std::this_thread::sleep_for(kReadAgain);
+      DANCE_TRY(kept, read_server_key());
+    }
+    if (kept != own_) return fail(other_cluster_identity_line(name_));
+    return own_;
+  }
   Result<bool> add(const KeyEntry& entry) override {
     DANCE_TRY(const auto values, store_->read_all());
     if (values.size() >= KeyRing::kMost)
@@ -76,9 +119,7 @@ class ClusterKeyStore final : public KeyStore {
   Result<bool> invite(const KeyEntry& entry) override {
     return fail(no_invitations_line(entry.name.view()));
   }
-  Result<Binding> bind(const std::string&, const PresharedKey&) override {
-    return Binding::kNotHere;
-  }
+  Result<Binding> bind(const std::string&, const PublicKey&) override { return Binding::kNotHere; }
   Result<bool> remove(const std::string& name) override {
     DANCE_TRY(const auto values, store_->read_all());
     // Of a wrong entry too: that is its cure.
@@ -89,6 +130,7 @@ class ClusterKeyStore final : public KeyStore {
 
  private:
   std::string name_;
+  PublicKey own_;
   std::unique_ptr<NatsStore> store_;
 };
 
@@ -105,11 +147,12 @@ std::unique_ptr<KeyStore> file_key_store(const std::string& path) {
   return std::make_unique<FileKeyStore>(path);
 }
 
-Result<std::unique_ptr<KeyStore>> cluster_key_store(const NatsOptions& options) {
+Result<std::unique_ptr<KeyStore>> cluster_key_store(const NatsOptions& options,
+                                                    const PublicKey& own) {
   NatsOptions of = options;
   of.bucket = kKeysBucket;
   DANCE_TRY(auto store, NatsStore::connect(of));
-  return std::make_unique<ClusterKeyStore>(options, std::move(store));
+  return std::make_unique<ClusterKeyStore>(options, own, std::move(store));
 }
 
 }  // namespace dance

@@ -13,7 +13,7 @@
 
 #include "core/base/result.h"
 #include "tunnel/nats/nats_options.h"
-#include "tunnel/seal/key_ring.h"
+#include "tunnel/seal/keys/key_ring.h"
 
 namespace dance {
 
@@ -24,12 +24,18 @@ class KeyStore {
   virtual std::string name() const = 0;
   // Entries that are wrong are said on stderr, one line each, and left out.
   virtual Result<KeyRing> read() = 0;
+  // The public key of the server, or of all servers of the cluster; nothing: the cluster has none
+  // yet. Writes nothing.
+  virtual Result<std::optional<PublicKey>> read_server_key() = 0;
+  // The same, for a line that a guest gets. The first such line makes the key of this machine that
+  // of the whole cluster; a machine with another key then fails.
+  virtual Result<PublicKey> claim_server_key() = 0;
   // False where the name has a key or an open invitation already.
   virtual Result<bool> add(const KeyEntry& entry) = 0;
   // Takes the place of an open invitation; false where the name has a key.
   virtual Result<bool> invite(const KeyEntry& entry) = 0;
-  // As KeyRing::bind(); what it says is written.
-  virtual Result<Binding> bind(const std::string& name, const PresharedKey& lasting) = 0;
+  // Like KeyRing::bind(), and stores the result.
+  virtual Result<Binding> bind(const std::string& name, const PublicKey& house) = 0;
   // False where there is none of that name.
   virtual Result<bool> remove(const std::string& name) = 0;
 };
@@ -39,6 +45,9 @@ std::string no_invitations_line(std::string_view guest);
 
 std::unique_ptr<KeyStore> file_key_store(const std::string& path);
 // The options' bucket does not count.
-Result<std::unique_ptr<KeyStore>> cluster_key_store(const NatsOptions& options);
+// `own`: the identity of this server. A cluster takes it as its own with the first key, and refuses
+// another one from then on.
+Result<std::unique_ptr<KeyStore>> cluster_key_store(const NatsOptions& options,
+                                                    const PublicKey& own);
 
 }  // namespace dance

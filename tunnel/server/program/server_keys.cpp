@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tunnel/seal/key_files.h"
+#include "tunnel/seal/keys/key_files.h"
 
 namespace dance {
 
@@ -13,6 +13,7 @@ Result<ServerKeys> ServerKeys::open(const std::string& path) {
     DANCE_TRY(const std::string folder, key_folder());
     keys.path_ = folder + "/server-keys";
   }
+  DANCE_TRY(keys.identity_, server_identity(keys.path_));
   if (auto done = keys.read(); !done) return tl::make_unexpected(done.error());
   return keys;
 }
@@ -45,7 +46,7 @@ Result<bool> ServerKeys::read_again() {
 
 std::size_t ServerKeys::guest_count() const {
   return static_cast<std::size_t>(std::ranges::count_if(ring_->entries(), [](const KeyEntry& it) {
-    return !it.is_local && (it.has_key || it.is_invited());
+    return !it.is_local() && (it.has_key || it.is_invited());
   }));
 }
 
@@ -64,7 +65,7 @@ void ServerKeys::unite() {
   if (const KeyEntry* local = of_file_.find(kLocalKeyName)) ring.add(*local);
   left_out_ = 0;
   for (const auto& [name, entry] : all)
-    if (!entry.is_local && !ring.add(entry)) ++left_out_;
+    if (!entry.is_local() && !ring.add(entry)) ++left_out_;
   ring_ = std::make_shared<const KeyRing>(std::move(ring));
 }
 

@@ -1,5 +1,5 @@
-// The keys that `dance server` lets in: those of its file, which it reads again when it changes,
-// and those of its cluster.
+// The identity of `dance server`, and the keys that it lets in: those of its file, which it reads
+// again when it changes, and those of its cluster.
 //
 // Units/frames: none.
 // Ownership:    plain values; rings are shared and never changed.
@@ -13,7 +13,7 @@
 #include <string>
 
 #include "core/base/result.h"
-#include "tunnel/seal/key_ring.h"
+#include "tunnel/seal/keys/key_ring.h"
 
 namespace dance {
 
@@ -25,6 +25,7 @@ class ServerKeys {
   // With the key of this machine.
   std::shared_ptr<const KeyRing> ring() const { return ring_; }
   const std::string& path() const { return path_; }
+  const PrivateKey& identity() const { return identity_; }
   // Guests and rooms that have a key, or an invitation that is open.
   std::size_t guest_count() const;
   // True where the file had changed and was read again; its error, once, where it is bad.
@@ -41,6 +42,7 @@ class ServerKeys {
   void unite();
 
   std::string path_;
+  PrivateKey identity_;
   std::string read_text_;
   bool was_bad_ = false;
   KeyRing of_file_;  // and the key of this machine

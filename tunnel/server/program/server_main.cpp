@@ -9,6 +9,7 @@
 #include "core/net/mono_clock.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
+#include "tunnel/server/program/audit_keeper.h"
 #include "tunnel/server/program/cluster/cluster_membership.h"
 #include "tunnel/server/program/invited_guests.h"
 #include "tunnel/server/program/key_command.h"
@@ -27,12 +28,17 @@ constexpr const char* kExamples = R"(Examples:
                                                 into one room, good for a week, as a QR code too
   dance server --new-guest alice --address dance.example.org
                                                 prints Alice's key, for her to paste into dance key
-  dance server --bind 0.0.0.0                   for houses elsewhere: those who have a key
+  dance server --new-guest alice --public-key A7…
+                                                lets Alice's house in by the key that its
+                                                dance key --public prints, without any secret
+  dance server --new-guest alice --key-for 30d  a key that expires
+  dance server --bind ::                        for houses elsewhere: those who have a key
   dance server --metrics 127.0.0.1:9464         a page for Prometheus at /metrics
   dance server --cluster nats://a:4222,nats://b:4222,nats://c:4222
                                                 shares its rooms with other servers
   dance server --json > summary.json            what it did, when it is ended with Ctrl-C
-While it runs, `dance status` on the same machine shows its rooms and guests.
+While it runs, `dance status` on the same machine shows its rooms and guests, and `dance status
+--log` who joined, who was refused and who was removed.
 )";
 
 constexpr Duration kSecond = Duration::s(1);
@@ -95,6 +101,7 @@ nlohmann::ordered_json summary(const Server& server, Duration uptime) {
           {"rejected", rejected},
           {"handshakes", door.handshakes_done},
           {"moves", door.moves},
+          {"rekeyings", door.rekeyings},
           {"kept_out", kept_out}};
 }
 
@@ -144,7 +151,8 @@ Result<std::optional<SealCertificates>> certificates_of(const ServerProgramOptio
 }
 
 std::vector<NamedCount> handshakes_of(const SealCounters& door) {
-  std::vector<NamedCount> counts{{"done", door.handshakes_done}, {"moved", door.moves}};
+  std::vector<NamedCount> counts{
+      {"done", door.handshakes_done}, {"moved", door.moves}, {"rekeyed", door.rekeyings}};
   for (std::size_t i = 0; i < kSealRejects; ++i)
     counts.push_back({std::string(kSealRejectNames[i]), door.rejected[i]});
   return counts;
@@ -157,7 +165,7 @@ Result<void> change_keys(const ServerProgramOptions& options, const ServerKeys& 
   if (options.cluster.urls.empty()) return run_key_command(command, *file_key_store(keys.path()));
   if (!command.invite.empty()) return fail(no_invitations_line(command.invite));
   DANCE_TRY(const NatsOptions nats, nats_options_of(options.cluster));
-  DANCE_TRY(const auto store, cluster_key_store(nats));
+  DANCE_TRY(const auto store, cluster_key_store(nats, keys.identity().public_key()));
   return run_key_command(command, *store);
 }
 
@@ -177,41 +185,60 @@ Result<void> run_server(const ServerProgramOptions& options) {
   DANCE_TRY(auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return stops;
   DANCE_TRY(Address local, Address::resolve(options.bind, options.port));
+  if (local.family() == Address::Family::kIpv6 && !machine_has_ipv6() && options.bind == "::") {
+    talk::warn("this machine has no IPv6: the server listens on IPv4 alone");
+    local = Address::any_ipv4(options.port);
+  }
   ServerOptions of;
   of.limits = options.limits;
   of.limits.file_bytes = options.avatar_memory_mb << 20;
   if (options.share_ms >= 0.0) of.limits.share_window = Duration::seconds(options.share_ms * 1e-3);
   DANCE_TRY(of.certificates, certificates_of(options));
   std::unique_ptr<ClusterMembership> cluster;
+  std::string cluster_urls;
   if (!options.cluster.urls.empty()) {
     std::signal(SIGPIPE, SIG_IGN);  // OpenSSL writes to sockets that their other end has closed
     ClusterOptions joins = options.cluster;
     joins.port = options.port;
     joins.nats.name = "dance server " + std::to_string(options.port);
     DANCE_TRY(cluster, ClusterMembership::join(joins, *poller));
+    DANCE_TRY(const NatsOptions nats, nats_options_of(options.cluster));
+    cluster_urls = shown_urls(nats);
     of.cluster = &cluster->node();
     of.limits.remote_servers = kRemoteServers;
+    if (const auto other = cluster->keys().other_identity(keys.identity().public_key()))
+      return fail(*other);
     unite_keys(keys, cluster->keys());
   }
+  of.identity = keys.identity();
   of.keys = keys.ring();
   std::unique_ptr<InvitedGuests> invited;
   if (!cluster) {
-    invited = std::make_unique<InvitedGuests>(keys, *poller);
-    of.on_binding = [&](PeerId peer, const KeyEntry& entry, const PresharedKey& lasting) {
-      invited->on_binding(peer, entry, lasting);
+    DANCE_TRY(WakeEvent wake, WakeEvent::create());
+    invited = std::make_unique<InvitedGuests>(keys, std::move(wake), *poller);
+    of.on_binding = [&](PeerId peer, const KeyEntry& entry, const PublicKey& house) {
+      invited->on_binding(peer, entry, house);
     };
   }
+  std::unique_ptr<AuditKeeper> audit;
+  of.on_audit = [&audit](const Address& from, const AuditEvent& event) {
+    if (audit) audit->add(from, event);
+  };
   DANCE_TRY(auto server, Server::open(local, of, *poller));
   if (invited) invited->set_server(*server);
   if (cluster) {
     cluster->set_after_batch([&](MonoTime now) { server->end_cluster_turn(now); });
     cluster->set_on_keys([&] {
       unite_keys(keys, cluster->keys());
+      if (const auto other = cluster->keys().other_identity(keys.identity().public_key()))
+        talk::warn("{}, and start it again", *other);
       server->set_keys(keys.ring());
       talk::info("{} keys now", keys.guest_count());
     });
   }
   local = server->local_address();
+  audit =
+      std::make_unique<AuditKeeper>(audit_file(keys.path(), local.port()), local.port(), *poller);
   ServerWatch::Options shown;
   shown.address = local;
   shown.limits = of.limits;
@@ -234,7 +261,7 @@ Result<void> run_server(const ServerProgramOptions& options) {
   talk::info("hears on {}; Ctrl-C ends it", local.to_string());
   if (cluster)
     talk::info("in a cluster with {} other servers, through {}",
-               cluster->node().peers().all().size(), shown_urls(*nats_options_of(options.cluster)));
+               cluster->node().peers().all().size(), cluster_urls);
   if (!local.is_loopback() && keys.guest_count() == 0 && !of.certificates)
     talk::warn("nobody elsewhere is invited or has a key yet: dance server --invite NAME does it");
 
@@ -281,11 +308,21 @@ int main(int argc, char** argv) {
       "The tunnel's server: forwards each guest's newest pose to everybody in the room.",
       "dance server");
   line.add("--port", options.port, "UDP port").range(1, 65535).shows_default();
-  line.add("--bind", options.bind,
-           "address to hear on: 127.0.0.1 = this machine only, 0.0.0.0 or :: = everywhere")
+  line.add(
+          "--bind", options.bind,
+          "address to listen on: 127.0.0.1 = this machine only, :: = all addresses, IPv4 and IPv6; "
+          "0.0.0.0 = all of IPv4")
       .shows_default();
   line.add("--max-sessions", options.limits.sessions, "links at a time")
       .range(1, 10'000)
+      .shows_default();
+  line.add("--max-sessions-per-key", options.limits.sessions_per_key,
+           "links at a time with the key of one guest; keys of rooms may have half of all")
+      .range(1, 10'000)
+      .shows_default();
+  line.add("--max-guests-per-key", options.limits.guests_per_key,
+           "guests in a room with the key of one guest; keys of rooms may have half of all")
+      .range(1, static_cast<int>(dance::wire::kSlotsPerPage))
       .shows_default();
   line.add("--avatar-memory", options.avatar_memory_mb,
            "megabytes of memory for files of avatars, while their guests are here; 0 = none pass")
@@ -315,31 +352,7 @@ int main(int argc, char** argv) {
            "HOST:PORT as guests reach this server, told to those of the others");
   line.add("--metrics", options.metrics,
            "HOST:PORT of a page of metrics for Prometheus; none unless asked for");
-  line.add("--invite", options.keys.invite,
-           "makes an invitation for NAME, prints the link that NAME opens, and ends");
-  line.add("--for", options.keys.invitation.valid_for,
-           "how long --invite is good: 90m, 24h, 7d; up to 90d")
-      .shows_default();
-  line.add_flag("--qr", options.keys.invitation.has_qr, "shows --invite as a QR code too");
-  line.add("--qr-file", options.keys.invitation.qr_file,
-           "writes the QR code of --invite into an .svg file that you alone may read");
-  line.add("--new-guest", options.keys.new_guest,
-           "makes a key for NAME, prints the line that NAME pastes, and ends");
-  line.add_choice<dance::KeyKind>(
-      "--role", options.keys.kind,
-      {{"guest", dance::KeyKind::kGuest},
-       {"host", dance::KeyKind::kHost},
-       {"listener", dance::KeyKind::kListener}},
-      "what --invite or --new-guest may do: dance; set music and scene too; only hear");
-  line.add("--room", options.keys.room, "the only room that --invite or --new-guest may enter");
-  line.add("--new-room-key", options.keys.new_room_key,
-           "makes a key for all who come to ROOM, prints its line, and ends");
-  line.add("--address", options.keys.address,
-           "HOST[:PORT] as guests reach this server, for the line that they get");
-  line.add("--remove-key", options.keys.remove,
-           "takes NAME's key or invitation away: NAME is out at once; and ends");
-  line.add_flag("--list-keys", options.keys.list,
-                "whose keys and open invitations there are, without the keys; and ends");
+  dance::add_key_options(line, options.keys);
   line.add("--keys", options.key_file,
            "file of keys (else server-keys in the folder of the user's settings)");
   line.add("--certificate", options.certificates.chain,

@@ -10,6 +10,8 @@
 #include <sstream>
 #include <utility>
 
+#include "core/net/tcp_socket.h"
+
 namespace dance {
 namespace {
 
@@ -322,10 +324,13 @@ bool ServerMetrics::is_built() { return true; }
 Result<std::unique_ptr<ServerMetrics>> ServerMetrics::open(const Address& address) {
   try {
     return std::unique_ptr<ServerMetrics>(std::make_unique<Exposed>(address));
-  } catch (const std::exception&) {  // says no more than that the port may be taken
-    return fail("--metrics " + address.to_string() +
-                ": cannot be had: the port is another program's, or the address not this "
-                "machine's; choose another");
+  } catch (const std::exception&) {  // The library gives no reason.
+    const std::string option = "--metrics " + address.to_string() + ": ";
+    if (const auto can = try_tcp_port(address); !can) return fail(option + can.error().what);
+    if (address.family() == Address::Family::kIpv6)
+      return fail(option + "the web server of this build (civetweb) has no IPv6; use 127.0.0.1:" +
+                  std::to_string(address.port()));
+    return fail(option + "the web server of this build (civetweb) does not start");
   }
 }
 

@@ -1,6 +1,10 @@
 #include "tunnel/server/program/server_status.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
+
+#include "tunnel/session/profile_bytes.h"
 
 namespace dance {
 namespace {
@@ -11,6 +15,18 @@ std::optional<double> share(std::int64_t lost, std::int64_t came) {
   lost = std::max<std::int64_t>(lost, 0);
   if (came <= 0 && lost == 0) return std::nullopt;
   return static_cast<double>(lost) / static_cast<double>(lost + std::max<std::int64_t>(came, 0));
+}
+
+// The server forwards the profile as the message of a channel, and reads it here alone.
+ShownName shown_name_of(const ServerGuest& guest) {
+  for (std::size_t at = wire::kFirstChannelPlace; at < wire::kGuestStates; ++at) {
+    const RetainedState& state = guest.states[at];
+    if (state.version == 0) continue;
+    const auto channel = wire::parse_channel(state.bytes());
+    if (!channel || !channel->name.view().starts_with(kProfilePrefix)) continue;
+    if (const auto profile = parse_profile(channel->message)) return profile->shown_name;
+  }
+  return {};
 }
 
 std::int64_t change(std::uint64_t before, std::uint64_t after) {
@@ -76,6 +92,8 @@ ServerLinkStatus ServerStatusMaker::link_status(std::size_t index, MonoTime now)
 
   ServerLinkStatus link;
   link.peer = peer_text_(session);
+  link.key = session.access.name.view();
+  link.key_until_utc_s = session.access.until_s;
   link.age = now - session.meter.since;
   link.last_heard = std::max(Duration(), now - session.last_heard);
   if (session.newest_ping.round_trip_us != 0)
@@ -115,8 +133,9 @@ ServerLinkStatus ServerStatusMaker::link_status(std::size_t index, MonoTime now)
   for (const std::uint8_t slot : session.slots) {
     const ServerGuest& guest = core_.rooms()[session.room].guests[slot];
     const StreamGate::Counters& poses = guest.poses.counters();
-    ServerGuestStatus status{guest.id,     poses.received,         poses.lost,          poses.late,
-                             std::nullopt, guest.voice.packets_in, guest.voice.bytes_in};
+    ServerGuestStatus status{
+        guest.id,     poses.received,         poses.lost,           poses.late,
+        std::nullopt, guest.voice.packets_in, guest.voice.bytes_in, shown_name_of(guest)};
     if (guest.jitter.has_any()) {
       status.jitter = guest.jitter.jitter();
       link.jitter = std::max(link.jitter.value_or(Duration()), *status.jitter);
@@ -152,7 +171,36 @@ ServerStatus ServerStatusMaker::make(MonoTime now, std::span<const NamedCount> h
   }
   std::sort(status.rooms.begin(), status.rooms.end(),
             [](const auto& a, const auto& b) { return a.name < b.name; });
+  status.keys = key_status(status.rooms);
   return status;
+}
+
+// Sorts by traffic, which costs others most, then by sessions; the largest comes first.
+std::vector<ServerKeyStatus> ServerStatusMaker::key_status(
+    const std::vector<ServerRoomStatus>& rooms) const {
+  std::map<std::string_view, ServerKeyStatus> by_name;
+  for (const ServerRoomStatus& room : rooms) {
+    std::set<std::string_view> here;
+    for (const ServerLinkStatus& link : room.links) {
+      ServerKeyStatus& key = by_name[link.key];
+      ++key.sessions;
+      key.rooms += here.insert(link.key).second ? 1 : 0;
+      key.bytes_in_per_s += link.bytes_in_per_s;
+      key.bytes_out_per_s += link.bytes_out_per_s;
+    }
+  }
+  std::vector<ServerKeyStatus> keys;
+  for (auto& [name, key] : by_name) {
+    key.name = name;
+    if (const auto id = GuestId::parse(name)) key.avatar_bytes = core_.files().bytes_of_key(*id);
+    keys.push_back(std::move(key));
+  }
+  std::ranges::stable_sort(keys, [](const ServerKeyStatus& a, const ServerKeyStatus& b) {
+    const double of_a = a.bytes_in_per_s + a.bytes_out_per_s;
+    const double of_b = b.bytes_in_per_s + b.bytes_out_per_s;
+    return of_a != of_b ? of_a > of_b : a.sessions > b.sessions;
+  });
+  return keys;
 }
 
 }  // namespace dance

@@ -40,10 +40,13 @@ struct ServerGuestStatus {
   std::optional<Duration> jitter;
   std::uint64_t voices = 0;       // packets of 10 ms that were taken
   std::uint64_t voice_bytes = 0;  // of them
+  ShownName shown_name;           // "" = none
 };
 
 struct ServerLinkStatus {
-  std::string peer;  // address, or how its key is called
+  std::string peer;                             // address, or how its key is called
+  std::string key;                              // name
+  std::optional<std::int64_t> key_until_utc_s;  // when its key expires; nothing = never
   Duration age;
   Duration last_heard;
   std::optional<Duration> round_trip;  // as the link's ping says
@@ -76,11 +79,22 @@ struct ServerRoomStatus {
   std::vector<ServerLinkStatus> links;
 };
 
+// Current use of one key.
+struct ServerKeyStatus {
+  std::string name;
+  std::size_t sessions = 0;
+  std::size_t rooms = 0;
+  double bytes_in_per_s = 0.0;
+  double bytes_out_per_s = 0.0;
+  std::size_t avatar_bytes = 0;
+};
+
 struct ServerStatus {
   std::string version;
   std::string address;
   Duration uptime;
   std::vector<ServerRoomStatus> rooms;
+  std::vector<ServerKeyStatus> keys;  // the most used first
   ServerCounters totals;
   std::vector<NamedCount> rejects;
   std::vector<NamedCount> handshakes;
@@ -125,6 +139,7 @@ class ServerStatusMaker {
 
   Sample sample_of(const ServerSession& session, MonoTime now) const;
   ServerLinkStatus link_status(std::size_t session, MonoTime now) const;
+  std::vector<ServerKeyStatus> key_status(const std::vector<ServerRoomStatus>& rooms) const;
 
   const ServerCore& core_;
   ServerLimits limits_;

@@ -7,10 +7,13 @@
 namespace dance {
 namespace {
 
-void add_json(const ServerLinkStatus& link, JsonText& json) {
+void add_json(const ServerLinkStatus& link, StatusJsonText& json) {
   json.next();
   json.open('{');
   json.member("peer", link.peer);
+  json.member("key", link.key);
+  if (link.key_until_utc_s)
+    json.member("key_until_utc_s", static_cast<std::uint64_t>(*link.key_until_utc_s));
   json.member("age_s", link.age.as_seconds());
   json.member("last_heard_s", link.last_heard.as_seconds());
   json.member("round_trip_ms", ms_of(link.round_trip));
@@ -36,6 +39,7 @@ void add_json(const ServerLinkStatus& link, JsonText& json) {
     json.next();
     json.open('{');
     json.member("name", guest.id.view());
+    if (!guest.shown_name.empty()) json.plain_member("shown_name", guest.shown_name.view());
     json.member("poses", guest.poses);
     json.member("lost", guest.lost);
     json.member("late", guest.late);
@@ -48,7 +52,7 @@ void add_json(const ServerLinkStatus& link, JsonText& json) {
   json.close('}');
 }
 
-void add_json(const ServerRoomStatus& room, JsonText& json) {
+void add_json(const ServerRoomStatus& room, StatusJsonText& json) {
   json.next();
   json.open('{');
   json.member("name", room.name.view());
@@ -63,7 +67,19 @@ void add_json(const ServerRoomStatus& room, JsonText& json) {
   json.close('}');
 }
 
-void add_counters(const ServerCounters& c, JsonText& json) {
+void add_json(const ServerKeyStatus& key, StatusJsonText& json) {
+  json.next();
+  json.open('{');
+  json.member("name", key.name);
+  json.member("sessions", std::uint64_t{key.sessions});
+  json.member("rooms", std::uint64_t{key.rooms});
+  json.member("bytes_in_per_s", key.bytes_in_per_s);
+  json.member("bytes_out_per_s", key.bytes_out_per_s);
+  json.member("avatar_bytes", std::uint64_t{key.avatar_bytes});
+  json.close('}');
+}
+
+void add_counters(const ServerCounters& c, StatusJsonText& json) {
   json.key("totals");
   json.open('{');
   json.member("datagrams_in", c.datagrams_in);
@@ -104,7 +120,7 @@ std::string codec_text(const CodecName& codec) {
 }
 
 std::string to_json(const ServerStatus& status) {
-  JsonText json;
+  StatusJsonText json;
   json.open('{');
   json.member("version", status.version);
   json.member("address", status.address);
@@ -113,6 +129,10 @@ std::string to_json(const ServerStatus& status) {
   json.key("rooms");
   json.open('[');
   for (const ServerRoomStatus& room : status.rooms) add_json(room, json);
+  json.close(']');
+  json.key("keys");
+  json.open('[');
+  for (const ServerKeyStatus& key : status.keys) add_json(key, json);
   json.close(']');
   add_counters(status.totals, json);
   json.member("rejects", status.rejects);

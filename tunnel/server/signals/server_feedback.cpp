@@ -103,8 +103,7 @@ void ServerFeedback::want_intra_frames_for(std::size_t newcomer, MonoTime now) {
   const ServerSession& session = server_.sessions[newcomer];
   for (std::size_t slot = 0; slot < session.filters.size(); ++slot) {
     ServerGuest& guest = server_.rooms[session.room].guests[slot];
-    if (guest.in_use && guest.owner != newcomer && session.filters[slot].wants_any() &&
-        session.can_name(static_cast<std::uint8_t>(slot)))
+    if (guest.in_use && guest.owner != newcomer && session.filters[slot].wants_any())
       want_intra_frame(guest, now);
   }
 }

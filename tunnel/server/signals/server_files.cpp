@@ -3,19 +3,13 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "tunnel/wire/state_bytes.h"
-
 namespace dance {
 namespace {
 
-constexpr std::size_t kMostFiles = 512;
-constexpr std::ptrdiff_t kMostFilesOfGuest = 2;  // the chosen one, and the one before
 // While chunks wait for their pace, and while they wait for their owner.
 constexpr Duration kSendingPeriod = Duration::ms(2);
 constexpr Duration kWaitingPeriod = Duration::ms(50);
 constexpr Duration kShortestTimeout = Duration::s(1);
-// A file in use is not evicted for another.
-constexpr Duration kInUse = Duration::s(10);
 // What one session gets of a file: twice its size, and as much as it has each ten minutes, so that
 // a path that loses much goes on slowly, and none makes the server send for ever.
 constexpr double kShareOfFile = 2.0;
@@ -25,15 +19,6 @@ constexpr double kBurstOfSession = wire::kFileChunkCost;
 constexpr double kBurstOfAll = 16.0 * wire::kFileChunkCost;
 // To another server of the cluster, and from it: what all of its links want, once.
 constexpr double kBetweenServers = 512e3;
-
-// What that guest has chosen, as its house has said it; nullopt = nothing.
-std::optional<AvatarFile> chosen_by(const ServerGuest& guest) {
-  const RetainedState& state = guest.states[wire::place_of({wire::StateKind::kAvatarFile, 0})];
-  AvatarFile file;
-  if (state.version == 0 || !decode_from_tunnel(state.bytes(), file) || !file.hash.is_set())
-    return std::nullopt;
-  return file;
-}
 
 }  // namespace
 
@@ -108,77 +93,6 @@ ServerFiles::File* ServerFiles::find(std::size_t room, const wire::FileName& nam
   for (File& file : files_)
     if (file.room == room && file.name == name) return &file;
   return nullptr;
-}
-
-// Chunks come or go, of what the guest has chosen.
-bool ServerFiles::is_in_use(const File& file, MonoTime now) {
-  const ServerGuest* guest = guest_in(file.room, file.name.slot);
-  if (guest == nullptr || now - file.used > kInUse) return false;
-  const auto chosen = chosen_by(*guest);
-  return chosen && chosen->hash == file.name.hash;
-}
-
-// The longest unused of those that match; false where all of them are in use.
-template <class Matches>
-bool ServerFiles::evict(const Matches& matches, MonoTime now) {
-  auto oldest = files_.end();
-  for (auto it = files_.begin(); it != files_.end(); ++it)
-    if (matches(*it) && (oldest == files_.end() || it->used < oldest->used) && !is_in_use(*it, now))
-      oldest = it;
-  if (oldest == files_.end()) return false;
-  forget(oldest);
-  return true;
-}
-
-// `name` is what the guest has chosen: its other files are not in use.
-ServerFiles::File* ServerFiles::find_or_add(std::size_t room, const wire::FileName& name,
-                                            std::uint32_t size_bytes, MonoTime now) {
-  for (auto it = files_.begin(); it != files_.end(); ++it) {
-    if (it->room != room || it->name != name) continue;
-    if (it->chunks.size_bytes() == size_bytes) return &*it;
-    forget(it);  // chosen again, with another size
-    break;
-  }
-  const auto of_guest = [&](const File& it) {
-    return it.room == room && it.name.slot == name.slot;
-  };
-  while (std::ranges::count_if(files_, of_guest) >= kMostFilesOfGuest)
-    if (!evict(of_guest, now)) return nullptr;
-  if (files_.size() >= kMostFiles && !evict([](const File&) { return true; }, now)) return nullptr;
-  if (!make_room(guest_in(room, name.slot)->owner, size_bytes, now)) return nullptr;
-  files_.push_back({room, name, ChunkedFile(size_bytes), {}, now});
-  size_bytes_ += size_bytes;
-  return &files_.back();
-}
-
-void ServerFiles::forget(std::list<File>::iterator file) {
-  size_bytes_ -= file->chunks.size_bytes();
-  files_.erase(file);
-}
-
-std::size_t ServerFiles::bytes_of_owner(std::size_t session) const {
-  std::size_t sum = 0;
-  for (const File& file : files_) {
-    const ServerGuest& guest = server_.rooms[file.room].guests[file.name.slot.slot];
-    if (guest.in_use && guest.owner == session) sum += file.chunks.size_bytes();
-  }
-  return sum;
-}
-
-bool ServerFiles::make_room(std::size_t owner, std::uint32_t size_bytes, MonoTime now) {
-  const auto& limits = server_.limits;
-  if (size_bytes > limits.file_bytes_per_session || size_bytes > limits.file_bytes) return false;
-  // A server's own links are bounded there.
-  const bool is_bounded = !server_.sessions[owner].is_remote();
-  const auto of_owner = [&](const File& it) {
-    const ServerGuest* guest = guest_in(it.room, it.name.slot);
-    return guest != nullptr && guest->owner == owner;
-  };
-  while (is_bounded && bytes_of_owner(owner) + size_bytes > limits.file_bytes_per_session)
-    if (!evict(of_owner, now)) return false;
-  while (size_bytes_ + size_bytes > limits.file_bytes)
-    if (!evict([](const File&) { return true; }, now)) return false;
-  return true;
 }
 
 void ServerFiles::refuse(std::size_t session, const wire::FileName& name,

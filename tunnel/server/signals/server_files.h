@@ -44,6 +44,7 @@ class ServerFiles {
 
   std::size_t count() const { return files_.size(); }
   std::size_t size_bytes() const { return size_bytes_; }  // as claimed
+  std::size_t bytes_of_key(const GuestId& key) const;     // of all its sessions
 
  private:
   struct File {
@@ -63,6 +64,10 @@ class ServerFiles {
     wire::FileName name;
     TokenBucket bytes;
   };
+  // Limits for one session, or for one key.
+  struct Held {
+    std::size_t files = 0, bytes = 0;
+  };
   // What one session waits for.
   struct Receiver {
     std::uint64_t epoch = 0;
@@ -72,6 +77,8 @@ class ServerFiles {
     std::vector<Served> served;  // one for each slot at most
   };
 
+  // The avatar that this guest's house announced; nullopt = none.
+  static std::optional<AvatarFile> chosen_by(const ServerGuest& guest);
   ServerGuest* guest_in(std::size_t room, const wire::Slot& slot);
   File* find(std::size_t room, const wire::FileName& name);
   File* find_or_add(std::size_t room, const wire::FileName& name, std::uint32_t size_bytes,
@@ -79,8 +86,10 @@ class ServerFiles {
   bool is_in_use(const File& file, MonoTime now);
   template <class Matches>
   bool evict(const Matches& matches, MonoTime now);
-  std::size_t bytes_of_owner(std::size_t session) const;
-  bool make_room(std::size_t owner, std::uint32_t size_bytes, MonoTime now);
+  const ServerSession* owner_of(const File& file) const;
+  template <class Matches>
+  Held held_by(const Matches& matches) const;
+  bool make_room(std::size_t session, std::uint32_t size_bytes, MonoTime now);
   void forget(std::list<File>::iterator file);
   template <class Message>
   void send(std::size_t session, const Message& message);

@@ -144,9 +144,7 @@ void ServerForwarder::forward(std::size_t from, const wire::Record& record, Mono
       if (!is_remote) ++server_.remote_receivers[server_.sessions[member].remote].meter.records_out;
       continue;
     }
-    if (member == from || !server_.sessions[member].can_name(record.slot) ||
-        !interest_.take(member, record, now))
-      continue;
+    if (member == from || !interest_.take(member, record, now)) continue;
     if (record.kind == wire::RecordKind::kPose)
       repeat_before(member, room.guests[record.slot], record, now);
     add(member, record, now);
@@ -250,7 +248,7 @@ void ServerForwarder::retain(ServerGuest& guest, const wire::Record& record) {
 void ServerForwarder::send_retained(std::size_t to, std::uint8_t slot, MonoTime now) {
   const ServerGuest& guest = server_.rooms[server_.sessions[to].room].guests[slot];
   if (!guest.in_use || guest.owner == to || !guest.retained.is_set ||
-      !server_.sessions[to].filters[slot].wants_any() || !server_.sessions[to].can_name(slot))
+      !server_.sessions[to].filters[slot].wants_any())
     return;
   wire::Record record = guest.retained.record;
   record.payload = {guest.retained.payload.data(), guest.retained.size};

@@ -43,7 +43,7 @@ void ServerInterest::settle(std::size_t index, MonoTime now) {
   session.full_shares = 0;
   for (std::uint8_t slot = 0; slot < dividers.size(); ++slot) {
     const ServerGuest& guest = room.guests[slot];
-    if (!guest.in_use || guest.owner == index || !session.can_name(slot)) continue;
+    if (!guest.in_use || guest.owner == index) continue;
     set_divider(index, slot, dividers[slot], now);
     if (dividers[slot] == 1) ++session.full_shares;
   }
@@ -71,7 +71,7 @@ void ServerInterest::tell_wanted(ServerRoom& room) {
     if (!guest.in_use || server_.is_local(guest)) continue;
     const bool is_wanted = std::ranges::any_of(room.members, [&](std::size_t member) {
       const ServerSession& session = server_.sessions[member];
-      return !session.is_remote() && session.can_name(slot) && session.filters[slot].wants_any();
+      return !session.is_remote() && session.filters[slot].wants_any();
     });
     if (std::exchange(guest.is_wanted, is_wanted) != is_wanted)
       server_.cluster->on_wanted(room, guest, is_wanted);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tunnel/wire/state_bytes.h"
+#include "tunnel/wire/wire_chat.h"
 
 namespace dance {
 namespace {
@@ -13,6 +14,18 @@ constexpr Duration kFreshStatesPeriod = Duration::ms(20);
 // does not fit comes with the next pong.
 constexpr std::size_t kFreshDatagrams = 4;
 constexpr std::size_t kFreshDatagramsOfRoom = 64;
+
+// A song names by itself whether only hosts may change it.
+bool may_set(const Access& access, const ServerRoom& room, const wire::State& state) {
+  if (state.name.kind != wire::StateKind::kSong) return may_set_room_state(access, room.has_host());
+  RoomSong song, in_force;
+  if (!decode_from_tunnel(state.payload, song)) return false;
+  const RetainedState& retained = room.states[wire::place_of(state.name)];
+  const bool is_locked =
+      retained.version != 0 && decode_from_tunnel(retained.bytes(), in_force) && in_force.locked;
+  // A guest's song keeps the lock of a host who has left.
+  return may_set_song(access, is_locked && room.has_host(), song.locked && !is_locked);
+}
 
 }  // namespace
 
@@ -37,7 +50,31 @@ void ServerStates::retain(ServerRoom& room, RetainedState& retained, const wire:
   ++server_.counters.states_in;
 }
 
-// The only one that is read here: who is near whom (tunnel/server/signals/server_pace.h).
+// Lines and signs that the server has not forwarded yet are charged to the guest's budget. A
+// history whose sequence goes back is refused: going back and forth would bypass the limit.
+bool ServerStates::accept_chat(ServerGuest& guest, const RetainedState& retained,
+                               wire::Bytes payload, MonoTime now) {
+  const auto history = wire::parse_chat(payload), before = wire::parse_chat(retained.bytes());
+  if (!history) {
+    server_.reject(ServerReject::kMalformed);
+    return false;
+  }
+  const std::size_t size = history->entries.size();
+  const std::size_t count = before ? history->count_new(before->sequence) : size;
+  const bool is_repeated =
+      before && history->sequence == before->sequence && size <= before->entries.size();
+  if (count == 0 && !is_repeated) {
+    server_.reject(ServerReject::kMalformed);
+    return false;
+  }
+  std::size_t lines = 0;
+  for (std::size_t i = size - count; i < size; ++i) lines += history->entries[i].is_line() ? 1 : 0;
+  if (guest.chat.take(lines, count - lines, now)) return true;
+  server_.reject(ServerReject::kChatRate);
+  return false;
+}
+
+// The server paces poses by the guests' placements (tunnel/server/signals/server_pace.h).
 void ServerStates::note_place(ServerGuest& guest, const wire::State& state) {
   Placement placement;
   if (state.name.kind == wire::StateKind::kPlacement &&
@@ -75,6 +112,9 @@ std::optional<wire::StateAck> ServerStates::take(std::size_t session, const wire
       server_.reject(ServerReject::kStateRate);
       return std::nullopt;
     }
+    if (state.name.kind == wire::StateKind::kChat &&
+        !accept_chat(*guest, retained, state.payload, now))
+      return std::nullopt;
     const ServerRoom& room = server_.rooms[server_.sessions[session].room];
     retain(server_.rooms[server_.sessions[session].room], retained, state);
     note_place(*guest, state);
@@ -90,7 +130,7 @@ std::optional<wire::StateAck> ServerStates::take_of_room(std::size_t session,
   ServerRoom& room = server_.rooms[from.room];
   const auto slot = std::find_if(from.slots.begin(), from.slots.end(),
                                  [&](std::uint8_t s) { return room.guests[s].id == state.setter; });
-  if (slot == from.slots.end() || !may_set_room_state(from.access, room.has_host())) {
+  if (slot == from.slots.end() || !may_set(from.access, room, state)) {
     server_.reject(ServerReject::kNotAllowed);
     return wire::StateAck{state.name, {}, state.version, wire::StateVerdict::kNotAllowed};
   }
@@ -146,8 +186,7 @@ void ServerStates::send(std::size_t index, bool only_fresh, std::size_t most_dat
   for (std::size_t i = 0; i < room.guests.size() && has_room; ++i) {
     const std::size_t slot = (begin + i) % room.guests.size();
     const ServerGuest& guest = room.guests[slot];
-    if (!guest.in_use || guest.owner == index || !session.can_name(static_cast<std::uint8_t>(slot)))
-      continue;
+    if (!guest.in_use || guest.owner == index) continue;
     const wire::Slot where{static_cast<std::uint8_t>(slot), guest.generation};
     for (std::size_t place = 0; place < wire::kGuestStates && has_room; ++place)
       has_room = add(wire::guest_state_at(place), where, {}, guest.states[place]);

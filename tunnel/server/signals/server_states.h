@@ -27,6 +27,8 @@ class ServerStates {
   std::optional<wire::StateAck> take(std::size_t session, const wire::State& state, MonoTime now);
   std::optional<wire::StateAck> take_of_room(std::size_t session, const wire::State& state,
                                              MonoTime now);
+  bool accept_chat(ServerGuest& guest, const RetainedState& retained, wire::Bytes payload,
+                   MonoTime now);
   static void note_place(ServerGuest& guest, const wire::State& state);
   void retain(ServerRoom& room, RetainedState& retained, const wire::State& state);
 

@@ -20,7 +20,6 @@ bool is_timely(const wire::VoiceRecord& record, MonoTime now) {
 
 void ServerVoice::on_voices(std::size_t index, wire::Bytes body, MonoTime received, MonoTime now) {
   ServerSession& session = server_.sessions[index];
-  if (session.version < wire::kFirstVoiceVersion) return server_.reject(ServerReject::kUnknownType);
   const std::int64_t now_us = received.since_zero_us();
   if (!wire::are_voices(now_us, body)) return server_.reject(ServerReject::kMalformed);
   // As with poses: until the welcome has come, slots are those of the session before.
@@ -57,7 +56,6 @@ void ServerVoice::take(std::size_t from, ServerGuest& guest, const wire::VoiceRe
   ++server_.counters.voices_in;
   ++guest.voice.packets_in;
   guest.voice.bytes_in += record.packet.size();
-  guest.voice.loudness.add(record.level_dbfs, now);
   const ServerRoom& room = server_.rooms[server_.sessions[from].room];
   if (room.remote_count > 0 && !server_.sessions[from].is_remote())
     server_.cluster->on_voice(room, guest, record);
@@ -67,18 +65,17 @@ void ServerVoice::take(std::size_t from, ServerGuest& guest, const wire::VoiceRe
 }
 
 bool ServerVoice::wants(const ServerSession& receiver, std::size_t index, std::uint8_t slot) const {
-  return !receiver.is_remote() && receiver.version >= wire::kFirstVoiceVersion &&
-         !receiver.voice.muted.test(slot) && receiver.filters[slot].wants_any() &&
-         !server_.is_newcomer(index);
+  return !receiver.is_remote() && !receiver.voice.muted.test(slot) &&
+         receiver.filters[slot].wants_any() && !server_.is_newcomer(index);
 }
 
 void ServerVoice::offer(std::size_t index, const wire::VoiceRecord& record, MonoTime now) {
   ServerSession& to = server_.sessions[index];
   SessionVoice& voice = to.voice;
   const ServerRoom& room = server_.rooms[to.room];
-  const std::size_t place = voice.places.take(record.slot.slot, now, [&](std::uint8_t slot) {
-    return room.guests[slot].voice.loudness.at(now);
-  });
+  const ServerGuest& guest = room.guests[record.slot.slot];
+  const std::size_t place =
+      voice.places.take(record.slot.slot, guest.key, guest.link_token, voice.share.voices(), now);
   if (place == kMaxTalkers) {
     ++server_.counters.voices_crowded;
     return;

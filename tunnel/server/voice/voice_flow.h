@@ -1,10 +1,8 @@
-// What the server keeps of voices: of each guest how loud it is and how much it may send, of each
-// receiver whom it hears and what waits for it.
+// State of voices at the server: how much each guest may send, and for each receiver its talkers
+// and the packets that wait for it.
 //
 // Units/frames: MonoTime of the server's clock; guests by slot.
 // Ownership:    plain values of fixed size.
-// Threads:      none inside.
-// Failure:      none.
 #pragma once
 
 #include <bitset>
@@ -18,7 +16,6 @@ namespace dance {
 
 // Of one guest.
 struct GuestVoice {
-  Loudness loudness;
   TokenBucket packets, bytes;
   std::uint64_t packets_in = 0, bytes_in = 0;  // taken
 };

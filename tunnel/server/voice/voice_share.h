@@ -27,7 +27,7 @@ class VoiceShare {
            packet_bytes;
   }
 
-  // How many voices may go, by TalkerPlaces' places: the longest heard first.
+  // How many voices may go: those in the first of TalkerPlaces' places.
   std::size_t voices() const { return voices_; }
   // Voices that were for this receiver, sent or not.
   void note_wanted(std::size_t packet_bytes) { wanted_.add(cost_of(packet_bytes)); }

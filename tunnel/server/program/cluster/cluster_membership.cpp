@@ -15,6 +15,8 @@ constexpr Duration kJoinsWithin = Duration::s(10);
 constexpr Duration kJoinTurn = Duration::ms(5);
 // Servers write what stands several times as often (ClusterNode).
 constexpr int kRoomsLast_s = 2 * 24 * 3600;
+// Seconds to wait for keys that NATS still has, or that another operator writes again.
+constexpr int kChecksUntilLost = 5;
 
 std::string_view text_in(ClusterBus::Bytes bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -63,6 +65,10 @@ Result<void> ClusterMembership::read_keys(const NatsOptions& nats, Poller& polle
   };
   handlers.on_all_read = [](std::string_view, MonoTime) {};
   handlers.on_back = [](MonoTime) {};
+  handlers.on_emptied = [this](MonoTime) {
+    keys_.expect_again();
+    checks_until_lost_ = kChecksUntilLost;
+  };
   key_bus_->set_handlers(std::move(handlers));
   // Many may come at once: after a break all do.
   key_bus_->set_after_batch([this](MonoTime) {
@@ -91,7 +97,13 @@ void ClusterMembership::tell() {
   if (others != told_others_)
     talk::info("{} other servers are in the cluster now", told_others_ = others);
   if (const auto wrong = keys_.take_wrong()) talk::warn("{}", *wrong);
+  if (checks_until_lost_ > 0 && --checks_until_lost_ == 0)
+    if (const auto lost = keys_.take_lost()) talk::warn("{}", *lost);
   const NatsBus::Counters now = bus_->counters();
+  if (std::exchange(emptied_, now.emptied) != now.emptied)
+    talk::warn(
+        "NATS has lost its values: is its disk another? The rooms of this server are written "
+        "again");
   const bool has_come_back = std::exchange(reconnects_, now.reconnects) != now.reconnects;
   const bool was_connected = std::exchange(was_connected_, now.is_connected);
   if (now.is_connected && (has_come_back || !was_connected)) {

@@ -38,7 +38,7 @@ class ClusterMembership {
   }
   // When the cluster's keys have become others.
   void set_on_keys(std::function<void()> work) { on_keys_ = std::move(work); }
-  // Once a second: says what has become of the connection, and which keys are wrong.
+  // Once a second: says what has become of the connection, and which keys are wrong or lost.
   void tell();
   // At the program's end.
   void flush() { bus_->flush(); }
@@ -56,6 +56,8 @@ class ClusterMembership {
   bool was_connected_ = true;
   std::size_t told_others_ = SIZE_MAX;
   std::uint64_t reconnects_ = 0;
+  std::uint64_t emptied_ = 0;
+  int checks_until_lost_ = 0;
 };
 
 }  // namespace dance

@@ -1,9 +1,7 @@
-// The options of programs that speak with a cluster.
+// The options of programs that speak with a cluster. Passwords come from files that only their
+// owner can read: all users of a machine can read command lines.
 //
-// Units/frames: none.
-// Ownership:    plain values.
-// Threads:      none inside.
-// Failure:      nats_options_of() says which option is wrong.
+// Failure: nats_options_of() names the option that is wrong, and the cure.
 #pragma once
 
 #include <string>
@@ -15,12 +13,14 @@
 namespace dance {
 
 struct ClusterOptions {
-  std::string urls;  // as nats_urls(); "" = no cluster
+  std::string urls;   // as nats_urls(); "" = no cluster
+  std::string login;  // file of USER:PASSWORD or of a token; "" = none
   NatsOptions nats;
   std::string address;     // HOST[:PORT] as guests reach this server
   std::uint16_t port = 0;  // of this server
 };
-// With the URLs in them.
+// Puts the URLs into the options, with the login of its file. Refuses a login on the command line,
+// and files of secrets that others may read.
 Result<NatsOptions> nats_options_of(const ClusterOptions& options);
 // --cluster, and how NATS knows us.
 void add_cluster_options(CommandLine& line, ClusterOptions& options, const std::string& what);

@@ -3,7 +3,7 @@
 namespace dance {
 namespace {
 
-void add_bus(const char* name, const NatsBus::Counters& bus, JsonText& json) {
+void add_bus(const char* name, const NatsBus::Counters& bus, StatusJsonText& json) {
   json.key(name);
   json.open('{');
   json.flag("connected", bus.is_connected);
@@ -15,7 +15,7 @@ void add_bus(const char* name, const NatsBus::Counters& bus, JsonText& json) {
   json.close('}');
 }
 
-void add_peer(const ClusterPeerStatus& peer, bool leads, JsonText& json) {
+void add_peer(const ClusterPeerStatus& peer, bool leads, StatusJsonText& json) {
   json.next();
   json.open('{');
   json.member("id", server_id_text(peer.id));
@@ -29,7 +29,7 @@ void add_peer(const ClusterPeerStatus& peer, bool leads, JsonText& json) {
   json.close('}');
 }
 
-void add_between(const ClusterLinkStatus& link, JsonText& json) {
+void add_between(const ClusterLinkStatus& link, StatusJsonText& json) {
   json.next();
   json.open('{');
   json.member("room", link.room.view());
@@ -46,7 +46,7 @@ void add_between(const ClusterLinkStatus& link, JsonText& json) {
   json.close('}');
 }
 
-void add_totals(const ClusterStatus& cluster, JsonText& json) {
+void add_totals(const ClusterStatus& cluster, StatusJsonText& json) {
   const ClusterNode::Counters& node = cluster.node;
   json.key("totals");
   json.open('{');
@@ -70,7 +70,7 @@ void add_totals(const ClusterStatus& cluster, JsonText& json) {
 
 }  // namespace
 
-void add_json(const ClusterStatus& cluster, JsonText& json) {
+void add_json(const ClusterStatus& cluster, StatusJsonText& json) {
   json.key("cluster");
   json.open('{');
   json.member("id", server_id_text(cluster.id));

@@ -11,6 +11,6 @@
 
 namespace dance {
 
-void add_json(const ClusterStatus& cluster, JsonText& json);
+void add_json(const ClusterStatus& cluster, StatusJsonText& json);
 
 }  // namespace dance

@@ -1,11 +1,11 @@
-#include "tunnel/seal/key_ring.h"
+#include "tunnel/seal/keys/key_ring.h"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
 #include "core/base/take_line.h"
-#include "tunnel/seal/utc_text.h"
+#include "tunnel/seal/keys/utc_text.h"
 
 namespace dance {
 namespace {
@@ -29,15 +29,28 @@ std::string said(std::string_view word) {
   return word.size() <= kMaxGuestIdLength ? "'" + std::string(word) + "'" : "a long word";
 }
 
-// Behind the key: what has become of an invitation, its key, and until when it is good.
-Result<std::optional<InvitationKey>> parse_invitation_words(std::string_view line,
-                                                            const std::string& where) {
-  const std::string_view word = take_word(line), key = take_word(line), until = take_word(line);
-  if (word.empty()) return std::optional<InvitationKey>();
+// Takes "until" and a time off the line, where it begins with them.
+Result<std::optional<std::int64_t>> take_expiry(std::string_view& line, const std::string& where) {
+  std::string_view rest = line;
+  if (take_word(rest) != "until") return std::optional<std::int64_t>();
+  const auto until_s = parse_utc(take_word(rest));
+  if (!until_s) return fail(where + ", until: write the expiry time like 20261127T0800Z, in UTC");
+  line = rest;
+  return until_s;
+}
+
+// Takes what has become of an invitation, its key, and when it expires.
+Result<std::optional<InvitationKey>> take_invitation_words(std::string_view& line,
+                                                           const std::string& where) {
+  std::string_view rest = line;
+  const std::string_view word = take_word(rest);
+  if (word.empty() || word == "until") return std::optional<InvitationKey>();
+  const std::string_view key = take_word(rest), until = take_word(rest);
+  line = rest;
   const auto known = std::find(kInvitationWords.begin(), kInvitationWords.end(), word);
-  const auto parsed = PresharedKey::parse(key);
+  const auto parsed = PublicKey::parse(key);
   const auto until_s = parse_utc(until);
-  if (known == kInvitationWords.end() || !parsed || !until_s || !take_word(line).empty())
+  if (known == kInvitationWords.end() || !parsed || !until_s)
     return fail(where +
                 ": a line is NAME KIND ROOM KEY, and of an invitation, behind it, invited, used or "
                 "revoked, its key and until when; make one with dance server --invite");
@@ -65,7 +78,12 @@ Result<KeyEntry> parse_entry(std::string_view line, const std::string& where) {
                   ": 1 to 24 characters of a-z, 0-9 and '-', or * for every room");
     entry.room = *room_id;
   }
-  DANCE_TRY(entry.invitation, parse_invitation_words(line, where));
+  DANCE_TRY(entry.invitation, take_invitation_words(line, where));
+  DANCE_TRY(entry.until_s, take_expiry(line, where));
+  if (!take_word(line).empty())
+    return fail(where +
+                ": a line is NAME KIND ROOM KEY, then optionally the state of an invitation and "
+                "'until TIME'; make one with dance server --new-guest");
   entry.has_key = key != "-";
   const bool is_used = entry.invitation && entry.invitation->state == InvitationState::kUsed;
   if (entry.invitation ? is_used != entry.has_key : !entry.has_key)
@@ -75,8 +93,8 @@ Result<KeyEntry> parse_entry(std::string_view line, const std::string& where) {
   if (entry.invitation && entry.kind == KeyKind::kRoom)
     return fail(where + ": an invitation is for one guest, and not for a room");
   if (!entry.has_key) return entry;
-  // Never in the message: it may be a key with one character too many.
-  const auto parsed = PresharedKey::parse(key);
+  // Never in the message: a private key may have been put there.
+  const auto parsed = PublicKey::parse(key);
   if (!parsed)
     return fail(where +
                 ": what stands where the key belongs is none; make a new one with dance "
@@ -104,7 +122,8 @@ std::string line_of(const KeyEntry& entry) {
                     std::string(
                         kInvitationWords[static_cast<std::size_t>(entry.invitation->state)]) +
                     " " + entry.invitation->key.text() + " " + utc_text(entry.invitation->until_s)
-              : "");
+              : "") +
+         (entry.until_s ? " until " + utc_text(*entry.until_s) : "");
 }
 
 Result<KeyRing> KeyRing::parse(std::string_view text, const std::string& name) {
@@ -127,8 +146,7 @@ Result<KeyRing> KeyRing::parse(std::string_view text, const std::string& name) {
 }
 
 std::string KeyRing::text() const {
-  std::string text =
-      "# Keys of a dance server: NAME KIND ROOM KEY. Anyone who reads this can enter.\n";
+  std::string text = "# Public keys of the guests of a dance server: NAME KIND ROOM KEY.\n";
   for (const KeyEntry& entry : entries_) text += line_of(entry) + "\n";
   return text;
 }
@@ -195,13 +213,18 @@ bool KeyRing::remove(std::string_view name) {
     entries_.erase(entries_.begin() + (entry - entries_.data()));
     return true;
   }
-  entry->key = PresharedKey();
+  entry->key = PublicKey();
   entry->has_key = false;
   entry->invitation->state = InvitationState::kRevoked;
   return true;
 }
 
-std::optional<Binding> KeyRing::settled_binding(std::string_view name, const PresharedKey& lasting,
+void KeyRing::remove_expired(std::string_view name, std::int64_t now_s) {
+  const KeyEntry* entry = find(name);
+  if (entry != nullptr && entry->has_expired(now_s)) remove(name);
+}
+
+std::optional<Binding> KeyRing::settled_binding(std::string_view name, const PublicKey& house,
                                                 std::int64_t now_s) const {
   const KeyEntry* entry = find_invitation(name);
   if (entry == nullptr) return Binding::kUnknown;
@@ -209,20 +232,20 @@ std::optional<Binding> KeyRing::settled_binding(std::string_view name, const Pre
     case InvitationState::kRevoked:
       return Binding::kRevoked;
     case InvitationState::kUsed:
-      return entry->key == lasting ? Binding::kBound : Binding::kUsed;
+      return entry->key == house ? Binding::kBound : Binding::kUsed;
     case InvitationState::kOpen:
       break;
   }
   if (now_s >= entry->invitation->until_s) return Binding::kExpired;
-  // The invitation's own key would be known to all who have read it.
-  if (entry->invitation->key == lasting) return Binding::kUsed;
+  // Everybody who has read the invitation has its private key.
+  if (entry->invitation->key == house) return Binding::kUsed;
   return std::nullopt;
 }
 
-Binding KeyRing::bind(std::string_view name, const PresharedKey& lasting, std::int64_t now_s) {
-  if (const auto settled = settled_binding(name, lasting, now_s)) return *settled;
+Binding KeyRing::bind(std::string_view name, const PublicKey& house, std::int64_t now_s) {
+  if (const auto settled = settled_binding(name, house, now_s)) return *settled;
   KeyEntry& entry = *entry_of(name);
-  entry.key = lasting;
+  entry.key = house;
   entry.has_key = true;
   entry.invitation->state = InvitationState::kUsed;
   return Binding::kBound;

@@ -1,4 +1,4 @@
-#include "tunnel/seal/key_files.h"
+#include "tunnel/seal/keys/key_files.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -96,7 +96,7 @@ Result<std::optional<std::string>> read_secret(const std::string& path) {
   if (fstat(file.get(), &about) != 0 || !S_ISREG(about.st_mode))
     return fail(path + " is no file; keys are kept in one");
   if ((about.st_mode & (S_IRWXG | S_IRWXO)) != 0)
-    return fail(path + " can be read by others, and it holds keys; chmod 600 " + path);
+    return fail(path + " holds secrets and can be read by other users; run: chmod 600 " + path);
   std::string text;
   std::array<char, 4096> part;
   for (;;) {
@@ -141,24 +141,51 @@ FileLock::~FileLock() {
   if (fd_ >= 0) close(fd_);
 }
 
-Result<PresharedKey> local_key() {
-  DANCE_TRY(const std::string folder, key_folder());
-  const std::string path = folder + "/" + kLocalKeyName + ".key";
+namespace {
+
+// The key in a file; the first program that needs it makes it.
+template <class Key>
+Result<Key> read_or_make(const std::string& path) {
   for (int i = 0; i < 2; ++i) {
     DANCE_TRY(const auto text, read_secret(path));
     if (text) {
-      const auto key = PresharedKey::parse(std::string_view(*text).substr(0, text->find('\n')));
-      if (!key) return fail(path + " holds no key; remove it, and it is made anew");
+      const auto key = Key::parse(std::string_view(*text).substr(0, text->find('\n')));
+      if (!key)
+        return fail(path +
+                    " holds no key: restore it from a backup, or remove it, and the next program "
+                    "makes another");
       return *key;
     }
-    // Who links it there first has made it, for all.
-    DANCE_TRY(const std::string beside, write_beside(path, PresharedKey::make().text() + "\n"));
+    // The first process to create the link wins; the others use its file.
+    DANCE_TRY(const std::string beside, write_beside(path, Key::make().text() + "\n"));
     const bool is_there = link(beside.c_str(), path.c_str()) == 0 || errno == EEXIST;
     const std::string why = reason();
     unlink(beside.c_str());
     if (!is_there) return fail(path + ": cannot be made: " + why);
   }
   return fail(path + " comes and goes; is another program removing it?");
+}
+
+}  // namespace
+
+Result<PresharedKey> local_key() {
+  DANCE_TRY(const std::string folder, key_folder());
+  return read_or_make<PresharedKey>(folder + "/" + kLocalKeyName + ".key");
+}
+
+Result<PrivateKey> house_identity(std::string folder) {
+  if (folder.empty()) {
+    DANCE_TRY(folder, key_folder());
+  }
+  return read_or_make<PrivateKey>(folder + "/identity.key");
+}
+
+std::string server_identity_path(const std::string& keys_path) {
+  return (fs::path(keys_path).parent_path() / "server-identity.key").string();
+}
+
+Result<PrivateKey> server_identity(const std::string& keys_path) {
+  return read_or_make<PrivateKey>(server_identity_path(keys_path));
 }
 
 Result<KeyRing> load_server_keys(const std::string& path) {
@@ -170,8 +197,7 @@ Result<KeyRing> with_local_key(KeyRing ring) {
   KeyEntry entry;
   entry.name = *GuestId::parse(kLocalKeyName);
   entry.kind = KeyKind::kRoom;
-  entry.is_local = true;
-  DANCE_TRY(entry.key, local_key());
+  DANCE_TRY(entry.local_key, local_key());
   ring.remove(kLocalKeyName);
   ring.add(entry);
   return ring;

@@ -1,4 +1,4 @@
-#include "tunnel/seal/utc_text.h"
+#include "tunnel/seal/keys/utc_text.h"
 
 #include <algorithm>
 #include <array>

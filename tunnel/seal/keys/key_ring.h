@@ -1,13 +1,16 @@
-// Who may enter a server's rooms, and with what key: a text file of one line each.
+// The guests of a server's rooms and their public keys: a text file of one line each. It has no
+// secrets, but whoever can write it decides who enters.
 //   alice  guest  *      <key>      alice, and alice-2, alice-phone …, in every room
 //   bob    host   salsa  <key>      may change music and scene of the room salsa
 //   anna   listener *    <key>      hears and sees, and is not seen
-//   salsa  room   salsa  <key>      all who have this key, under any name without a key of its own
+//   salsa  room   salsa  <key>      all who have the private key, under any name that has no key
 //   carol  guest  *      -      invited <invitation's key> 20261127T0800Z
 //                                   has been sent an invitation, and has no key yet
 //   dave   guest  *      <key>  used    <invitation's key> 20261127T0800Z
 //                                   came with one: it opens nothing any more
 //   erin   guest  *      -      revoked <invitation's key> 20261127T0800Z
+// A line may end with when the key expires, also that of a guest who has only been invited:
+//   frank  guest  *      <key>  until 20261231T0000Z
 //
 // Units/frames: seconds of UTC.
 // Ownership:    plain values.
@@ -22,7 +25,7 @@
 
 #include "core/base/guest_id.h"
 #include "core/base/result.h"
-#include "tunnel/seal/preshared_key.h"
+#include "tunnel/seal/keys/identity_key.h"
 
 namespace dance {
 
@@ -30,11 +33,12 @@ enum class KeyKind : std::uint8_t { kGuest, kHost, kListener, kRoom };
 std::string_view key_kind_name(KeyKind kind);
 std::optional<KeyKind> find_key_kind(std::string_view name);
 
-// A key that a guest was sent for the first time that she comes. The house that comes with it first
-// replaces it by a lasting one; from then on it is kept to tell the next that it was used.
+// An invitation's key, sent to a guest for the first visit. The first house that opens a session
+// with it becomes the guest: its own key is kept, and the invitation's as well, to tell others that
+// it was used.
 enum class InvitationState : std::uint8_t { kOpen, kUsed, kRevoked };
 struct InvitationKey {
-  PresharedKey key;
+  PublicKey key;
   std::int64_t until_s = 0;
   InvitationState state = InvitationState::kOpen;
   bool operator==(const InvitationKey&) const = default;
@@ -44,21 +48,27 @@ struct KeyEntry {
   GuestId name;
   KeyKind kind = KeyKind::kGuest;
   GuestId room;  // not set: every room
-  PresharedKey key;
-  bool is_local = false;  // only for programs on the server's own machine
-  bool has_key = true;    // false: nothing but the invitation
+  // The public key of the guest's house, or of a grant that she, or all of a room, were given.
+  PublicKey key;
+  // Set: only for programs of this user on the server's own machine, who share this key.
+  std::optional<PresharedKey> local_key;
+  bool has_key = true;  // false: nothing but the invitation
   std::optional<InvitationKey> invitation;
+  // Expiry: the key opens no room afterwards. Not set: it opens rooms until it is removed.
+  std::optional<std::int64_t> until_s{};
 
+  bool has_expired(std::int64_t now_s) const { return until_s && now_s >= *until_s; }
+  bool is_local() const { return local_key.has_value(); }
   bool is_invited() const {
     return invitation && invitation->state == InvitationState::kOpen && !has_key;
   }
   bool operator==(const KeyEntry&) const = default;
 };
 
-// What became of a house's wish to bind an invitation to a key that it made; these numbers are in
-// the wire format.
+// The result of a house's request to bind an invitation to its identity; these numbers are in the
+// wire format.
 enum class Binding : std::uint8_t {
-  kBound,    // the key is the guest's from now on; also when it was already
+  kBound,    // the house's key is the guest's from now on; also when it was already
   kUsed,     // another house has come with the invitation
   kRevoked,  // or it was
   kExpired,  // its time is over
@@ -91,10 +101,12 @@ class KeyRing {
   bool invite(const KeyEntry& entry);
   // Of an invitation it stays known that it was revoked.
   bool remove(std::string_view name);
-  // From now on `lasting` is the guest's key.
-  Binding bind(std::string_view name, const PresharedKey& lasting, std::int64_t now_s);
-  // What bind() would say, without doing so: nullopt where it would bind.
-  std::optional<Binding> settled_binding(std::string_view name, const PresharedKey& lasting,
+  // Removes a key that has expired, so that its name can get another.
+  void remove_expired(std::string_view name, std::int64_t now_s);
+  // Makes `house` the guest's key.
+  Binding bind(std::string_view name, const PublicKey& house, std::int64_t now_s);
+  // The result of bind() without the change: nullopt where it would bind.
+  std::optional<Binding> settled_binding(std::string_view name, const PublicKey& house,
                                          std::int64_t now_s) const;
   // Forgets invitations whose time has been over for a day.
   void forget_invitations(std::int64_t now_s);

@@ -1,4 +1,4 @@
-#include "tunnel/seal/house_keys.h"
+#include "tunnel/seal/keys/house_keys.h"
 
 #include <algorithm>
 
@@ -12,6 +12,8 @@ constexpr std::size_t kMostServer = 260;  // a name's 253 characters, and a port
 constexpr const char* kWholeLine =
     "a key is one line, dance-key:NAME@SERVER/ROOM#KEY, as dance server --new-guest printed it: "
     "paste all of it";
+constexpr char kGrantMark = '.';
+constexpr std::uint16_t kUsualPort = 7400;
 
 std::string_view trimmed(std::string_view text) {
   const auto begin = text.find_first_not_of(" \t\r\n");
@@ -35,12 +37,16 @@ Result<HouseKey> HouseKey::parse(std::string_view line) {
   line.remove_prefix(kPrefix.size());
   const auto hash = line.find('#');
   if (hash == std::string_view::npos) return fail(kWholeLine);
-  const auto key = PresharedKey::parse(line.substr(hash + 1));
-  if (!key)
-    return fail(std::string("the end of the line, after #, is no key of 43 characters; ") +
-                kWholeLine);
+  const std::string_view keys = line.substr(hash + 1);
+  const auto mark = keys.find(kGrantMark);
+  const auto server_key = PublicKey::parse(keys.substr(0, mark));
   HouseKey made;
-  made.key = *key;
+  if (mark != std::string_view::npos) made.grant = PrivateKey::parse(keys.substr(mark + 1));
+  if (!server_key || made.grant.has_value() != (mark != std::string_view::npos))
+    return fail(std::string("the end of the line, after #, is no server's key of 44 characters, or "
+                            "what follows it is none of 43; ") +
+                kWholeLine);
+  made.server_key = *server_key;
   std::string_view rest = line.substr(0, hash);
   if (const auto slash = rest.find('/'); slash != std::string_view::npos) {
     const auto room = GuestId::parse(rest.substr(slash + 1));
@@ -68,7 +74,15 @@ std::string HouseKey::title() const {
   return text;
 }
 
-std::string HouseKey::line() const { return std::string(kPrefix) + title() + "#" + key.text(); }
+std::string HouseKey::line() const {
+  return std::string(kPrefix) + title() + "#" + server_key.text() +
+         (grant ? kGrantMark + grant->text() : "");
+}
+
+bool HouseKey::concerns(std::string_view of_server) const {
+  const std::string whole = server_name_of(of_server, kUsualPort);
+  return !server.empty() && (server == whole || server == whole.substr(0, whole.rfind(':')));
+}
 
 Result<HouseKeys> HouseKeys::parse(std::string_view text, const std::string& name) {
   HouseKeys keys;
@@ -87,7 +101,9 @@ Result<HouseKeys> HouseKeys::parse(std::string_view text, const std::string& nam
 }
 
 std::string HouseKeys::text() const {
-  std::string text = "# Keys to dance servers. Anyone who reads this can enter in your name.\n";
+  std::string text =
+      "# Dance servers that let this house in. Anyone who reads this can use the keys behind a "
+      "dot.\n";
   for (const HouseKey& key : keys_) text += key.line() + "\n";
   return text;
 }
@@ -105,14 +121,31 @@ bool HouseKeys::remove(std::string_view title) {
   return std::erase_if(keys_, [&](const HouseKey& key) { return key.title() == title; }) > 0;
 }
 
+std::vector<std::string> HouseKeys::trust(std::string_view of_server, const PublicKey& server_key) {
+  std::vector<std::string> titles;
+  for (HouseKey& key : keys_) {
+    if (!key.concerns(of_server) || key.server_key == server_key) continue;
+    key.server_key = server_key;
+    titles.push_back(key.title());
+  }
+  return titles;
+}
+
+const HouseKey* HouseKeys::find_other(std::string_view of_server,
+                                      const PublicKey& server_key) const {
+  const auto found = std::find_if(keys_.begin(), keys_.end(), [&](const HouseKey& key) {
+    return key.concerns(of_server) && key.server_key != server_key;
+  });
+  return found == keys_.end() ? nullptr : &*found;
+}
+
 const HouseKey* HouseKeys::find(std::string_view server, const GuestId& room,
                                 const GuestId& guest) const {
   const HouseKey* best = nullptr;
   int best_fit = -1;
   for (const HouseKey& key : keys_) {
     const bool is_of_server = !key.server.empty();
-    if (is_of_server && key.server != server && key.server != server.substr(0, server.rfind(':')))
-      continue;
+    if (is_of_server && !key.concerns(server)) continue;
     if (key.room.is_set() && key.room != room) continue;
     const bool is_own =
         guest.is_set() &&

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "core/base/result.h"
-#include "tunnel/seal/house_keys.h"
-#include "tunnel/seal/key_ring.h"
+#include "tunnel/seal/keys/house_keys.h"
+#include "tunnel/seal/keys/key_ring.h"
 
 namespace dance {
 
@@ -46,9 +46,16 @@ class FileLock {
   int fd_;
 };
 
-// The key between programs on this machine, made by the first that needs it.
+// The key between programs of this user on this machine, made by the first that needs it.
 constexpr const char* kLocalKeyName = "local";
 Result<PresharedKey> local_key();
+// The identity of this user's houses, made by the first program that needs it: identity.key in
+// `folder` ("" = key_folder()).
+Result<PrivateKey> house_identity(std::string folder = "");
+// The identity of a server, made likewise: server-identity.key beside its file of keys. Servers of
+// a cluster have copies of one file.
+Result<PrivateKey> server_identity(const std::string& keys_path);
+std::string server_identity_path(const std::string& keys_path);
 
 // A server's keys, without those of this machine; an empty ring where there is no file.
 Result<KeyRing> load_server_keys(const std::string& path);

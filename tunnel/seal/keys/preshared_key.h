@@ -1,5 +1,6 @@
-// Keys that a server and a house share, and the texts that they travel in: 32 random bytes, written
-// as 43 characters (base64 with - and _).
+// The key of one handshake that both of its ends know: derived from their identity keys, or,
+// between programs of one user, the content of a file. 32 bytes, written as 43 characters (base64
+// with - and _).
 //
 // Units/frames: none.
 // Ownership:    plain values; wiped when they go.
@@ -31,10 +32,6 @@ class PresharedKey {
   static std::optional<PresharedKey> parse(std::string_view text);
   static PresharedKey of(std::span<const std::uint8_t, kBytes> bytes);
   std::string text() const;
-  // By which files say which key is meant without showing it: hexadecimal digits that a key has
-  // and that lead back to none.
-  static constexpr std::size_t kFingerprintLength = 16;
-  std::string fingerprint() const;
 
   const std::array<std::uint8_t, kBytes>& bytes() const { return bytes_; }
   bool operator==(const PresharedKey& o) const;
