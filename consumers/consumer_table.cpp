@@ -1,11 +1,12 @@
 #include "consumers/consumer_table.h"
 
 #include <algorithm>
-#include <chrono>
+#include <filesystem>
 #include <utility>
 
 #include "consumers/engine/engine_consumer.h"
 #include "consumers/files/glb_consumer.h"
+#include "consumers/files/kept_take.h"
 #include "consumers/mcap/mcap_consumer.h"
 #include "consumers/rate_limit.h"
 #include "consumers/rokoko/rokoko_consumer.h"
@@ -14,6 +15,7 @@
 #include "consumers/text/text_consumer.h"
 #include "consumers/vmc/vmc_consumer.h"
 #include "consumers/vrchat/vrchat_consumer.h"
+#include "core/net/clock/recording_clock.h"
 #include "core/net/mono_clock.h"
 
 namespace dance {
@@ -36,10 +38,27 @@ Made on_file(const ConsumerOptions& options, Arguments&&... arguments) {
                                     std::forward<Arguments>(arguments)...);
 }
 
-// Of this process's clock.
-Duration wall_ahead() {
-  const auto wall = std::chrono::system_clock::now().time_since_epoch();
-  return Duration::ns(std::chrono::nanoseconds(wall).count()) - (mono_now() - MonoTime());
+// A device or a pipe (/dev/null) has no folder for a log beside it.
+bool has_place_beside(const std::string& path) {
+  std::error_code ignored;
+  const auto kind = std::filesystem::symlink_status(path, ignored).type();
+  return kind == std::filesystem::file_type::not_found ||
+         kind == std::filesystem::file_type::regular || kind == std::filesystem::file_type::symlink;
+}
+
+// Like on_file(), for a format that can only be written when the recording ends.
+template <class Consumer>
+Made on_take(const ConsumerOptions& options) {
+  const bool is_file =
+      !options.file.empty() && options.file != "-" && has_place_beside(options.file);
+  if (is_file)
+    if (auto checked = KeptTake::check(options.file); !checked)
+      return tl::make_unexpected(checked.error());
+  DANCE_TRY(
+      auto consumer,
+      on_file<Consumer>(options, options.hz > 0.0 ? options.hz : kClipFrames_hz, options.guest));
+  if (!is_file) return consumer;
+  return KeptTake::make(std::move(consumer), options.file, options.guest);
 }
 
 Made make_text(const ConsumerOptions& options) {
@@ -48,18 +67,12 @@ Made make_text(const ConsumerOptions& options) {
 
 Made make_csv(const ConsumerOptions& options) { return on_file<CsvConsumer>(options, options.hz); }
 
-Made make_bvh(const ConsumerOptions& options) {
-  return on_file<BvhConsumer>(options, options.hz > 0.0 ? options.hz : kClipFrames_hz,
-                              options.guest);
-}
+Made make_bvh(const ConsumerOptions& options) { return on_take<BvhConsumer>(options); }
 
-Made make_glb(const ConsumerOptions& options) {
-  return on_file<GlbConsumer>(options, options.hz > 0.0 ? options.hz : kClipFrames_hz,
-                              options.guest);
-}
+Made make_glb(const ConsumerOptions& options) { return on_take<GlbConsumer>(options); }
 
 Made make_mcap(const ConsumerOptions& options) {
-  return on_file<McapConsumer>(options, options.hz, wall_ahead());
+  return on_file<McapConsumer>(options, options.hz, RecordingClock().wall_ahead());
 }
 
 Made make_engine(const ConsumerOptions& options) {

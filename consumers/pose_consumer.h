@@ -37,6 +37,8 @@ class PoseConsumer {
   virtual Result<void> flush() { return {}; }
   // Writes what is still held back.
   virtual Result<void> finish() = 0;
+  // Poses and frames that were received and are not in its file: too many, or of other guests.
+  virtual std::uint64_t left_out() const { return 0; }
   // One line: what was written, and what was left out and why.
   virtual std::string summary() const = 0;
 };

@@ -1,10 +1,11 @@
 #include "house/avatar_choice.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <filesystem>
 
+#include "core/base/text/plain_text.h"
+#include "core/program/confinement.h"
 #include "formats/avatar/avatar_reader.h"
 #include "formats/body/look_names.h"
 
@@ -22,17 +23,6 @@ bool is_file_name(const std::string& what) {
          std::ranges::any_of(kEndings, [&](auto ending) { return what.ends_with(ending); });
 }
 
-Result<std::array<float, 3>> parse_colour(const std::string& text) {
-  std::string_view digits = text;
-  if (digits.starts_with('#')) digits.remove_prefix(1);
-  std::uint32_t rgb = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), rgb, 16);
-  if (digits.size() != 6 || error != std::errc() || end != digits.data() + digits.size())
-    return fail("the colour '" + text + "' is not written as #e04080");
-  const Eigen::Vector3f linear = linear_from_srgb(rgb);
-  return std::array<float, 3>{linear.x(), linear.y(), linear.z()};
-}
-
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
@@ -42,13 +32,13 @@ std::string joined(const std::vector<std::string>& words) {
 Result<void> choose_file(const std::string& path, const AvatarStore& store, ChosenAvatar& chosen) {
   DANCE_TRY(const AvatarStore::Kept kept, AvatarStore::read_file(path));
   const std::string name = fs::path(path).filename().string();
-  auto read = read_avatar(kept.bytes, {}, name);
+  auto read = run_confined([&] { return read_avatar(kept.bytes, {}, name); });
   if (!read) return fail("the avatar " + path + " cannot be read: " + read.error().what);
   chosen.notes = std::move(read->notes);
   if (auto stored = store.keep_own(kept, path.ends_with(".vrm")); !stored) return stored;
   chosen.file.hash = kept.hash;
   chosen.file.size_bytes = static_cast<std::int32_t>(kept.bytes.size());
-  // A name that does not fit, or is not plain, is of no use to anybody.
+  // Other houses refuse a name that is too long or not plain text.
   if (!is_plain_text(name) || !chosen.file.name.assign(name))
     static_cast<void>(chosen.file.name.assign(path.ends_with(".vrm") ? "avatar.vrm" : "avatar"));
   return {};
@@ -73,6 +63,17 @@ Result<void> choose_name(const AvatarChoice& choice, const std::string& shipped_
 }
 
 }  // namespace
+
+Result<std::array<float, 3>> parse_colour(const std::string& text) {
+  std::string_view digits = text;
+  if (digits.starts_with('#')) digits.remove_prefix(1);
+  std::uint32_t rgb = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), rgb, 16);
+  if (digits.size() != 6 || error != std::errc() || end != digits.data() + digits.size())
+    return fail("the colour '" + text + "' is not written as #e04080");
+  const Eigen::Vector3f linear = linear_from_srgb(rgb);
+  return std::array<float, 3>{linear.x(), linear.y(), linear.z()};
+}
 
 std::vector<std::string> shipped_avatars(const std::string& shipped_folder) {
   std::vector<std::string> names;

@@ -9,6 +9,7 @@
 // Failure:      says what is wrong with the file or the name, and what there is.
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,6 +36,9 @@ struct ChosenAvatar {
 // `shipped_folder` has the avatars that come with the program.
 Result<ChosenAvatar> choose_avatar(const AvatarChoice& choice, const AvatarStore& store,
                                    const std::string& shipped_folder);
+
+// "#e04080", as a screen shows it → linear RGB.
+Result<std::array<float, 3>> parse_colour(const std::string& text);
 
 // The names in that folder.
 std::vector<std::string> shipped_avatars(const std::string& shipped_folder);

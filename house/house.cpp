@@ -4,15 +4,17 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "consumers/consumer_feed.h"
+#include "core/net/clock/calendar_zero.h"
 #include "core/net/mono_clock.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "house/dancer/dancer_file.h"
 #include "producers/receive/receiver_table.h"
 #include "producers/replay/clip_dancer.h"
-#include "producers/salsa/salsa_dancer.h"
+#include "tunnel/link/find_server.h"
 #include "tunnel/link/link_report.h"
 #include "tunnel/server/server.h"
 
@@ -21,31 +23,14 @@ namespace {
 
 constexpr Duration kSecond = Duration::s(1);
 
-// Synthetic dancers count from the clock's zero, so that all of a machine are in step; a recording
-// begins now.
-MonoTime start_of(const HostedProducer& producer, MonoTime now) {
-  return producer.kind == HostedProducer::Kind::kSalsa ? MonoTime::from_us(1) : now;
-}
-
-// A synthetic dancer dances to `music` while there is some.
-Result<std::unique_ptr<Dancer>> make_dancer(const HostedProducer& producer,
-                                            const BeatClock& music) {
-  if (producer.kind == HostedProducer::Kind::kReplay) {
-    DANCE_TRY(NamedClip loaded, load_dancer_of(producer.file, producer.dancer, producer.guest));
-    for (const std::string& note : loaded.notes) talk::info("{}: {}", producer.file, note);
-    ClipDancerOptions options;
-    options.speed = producer.speed;
-    return std::make_unique<ClipDancer>(std::make_shared<const MotionClip>(std::move(loaded.clip)),
-                                        options);
-  }
-  SalsaStyle style;
-  style.role = producer.role == "lead" ? SalsaRole::kLead : SalsaRole::kFollow;
-  style.tempo_bpm = producer.tempo_bpm;
-  style.seed = static_cast<std::uint64_t>(producer.seed);
-  DANCE_TRY(const SalsaStyle checked, checked_style(style));
-  auto dancer = std::make_unique<SalsaDancer>(checked);
-  dancer->listen_to(music, start_of(producer, MonoTime()));
-  return dancer;
+Result<std::unique_ptr<Dancer>> make_clip(const HostedProducer& producer) {
+  DANCE_TRY(NamedClip loaded, load_dancer_of(producer.file, producer.dancer, producer.guest));
+  for (const std::string& note : loaded.notes) talk::info("{}: {}", producer.file, note);
+  if (!loaded.lost.empty()) talk::warn("{}: {}; the rest is danced", producer.file, loaded.lost);
+  ClipDancerOptions options;
+  options.speed = producer.speed;
+  return std::make_unique<ClipDancer>(std::make_shared<const MotionClip>(std::move(loaded.clip)),
+                                      options);
 }
 
 // evening.csv, or evening-2.csv where that is there: a house that is started again loses nothing.
@@ -74,13 +59,18 @@ House::House(const HouseConfig& session, Poller& poller) : session_(session), po
 Result<std::unique_ptr<House>> House::open(const HouseConfig& session, Poller& poller) {
   std::unique_ptr<House> house(new House(session, poller));
   DANCE_TRY(house->bus_, Bus::open(session.bus));
+  house->publisher_ = std::make_unique<HousePublisher>(*house->bus_, house->bus_->url(), poller);
   house->port_ = std::make_unique<HousePort>(
-      *house->bus_, HostedParts{!session.server.empty(), hosted_guests(session)});
+      *house->publisher_, HostedParts{!session.server.empty(), hosted_guests(session)});
+  house->open_inputs();
   house->captures_ = std::make_unique<PortCaptureSink>(*house->port_);
+  house->link_captures_ = std::make_unique<Captures>(*house->inputs_, this_clock_id());
   house->link_bus_ =
-      std::make_unique<LinkBus>(*house->bus_, house->captures_->captures(), this_clock_id());
-  house->link_avatars_ = std::make_unique<LinkAvatars>(
-      AvatarStore::of_user(), poller, [](const std::string& line) { talk::info("{}", line); });
+      std::make_unique<LinkBus>(*house->bus_, *house->link_captures_, this_clock_id());
+  DANCE_TRY(WakeEvent avatars_wake, WakeEvent::create());
+  house->link_avatars_ =
+      std::make_unique<LinkAvatars>(AvatarStore::of_user(), std::move(avatars_wake), poller,
+                                    [](const std::string& line) { talk::info("{}", line); });
   house->link_bus_->use_avatars(*house->link_avatars_);
   // The link first: a capture goes to the network before this house's own stage.
   if (auto linked = house->open_link(); !linked) return tl::make_unexpected(linked.error());
@@ -103,6 +93,9 @@ Result<std::unique_ptr<House>> House::open(const HouseConfig& session, Poller& p
   if (session.voice && session.voice->enabled)
     house->voice_ =
         std::make_unique<HouseVoice>(*session.voice, house->bus_->url(), *house->port_, poller);
+  house->profiles_ =
+      std::make_unique<HouseProfiles>(session, *house->inputs_, *house->port_, this_clock_id());
+  house->profiles_->publish_second(mono_now());
   for (HostedStyle hosted : session.styles) {
     hosted.style.time = mono_now();
     hosted.style.clock_id = this_clock_id();
@@ -118,8 +111,9 @@ Result<std::unique_ptr<House>> House::open(const HouseConfig& session, Poller& p
   poller.watch(house->bus_->fd(), [self](MonoTime now) { self->bus_->drain(now); });
   poller.add_timer(mono_now() + kSecond, [self](MonoTime now) {
     self->avatars_->publish_second(now);
+    self->profiles_->publish_second(now);
     self->link_bus_->publish_second(now);
-    for (auto& consumer : self->consumers_) consumer->on_second(now);
+    self->flush_consumers(now);
     return now + kSecond;
   });
   return house;
@@ -143,26 +137,40 @@ House::~House() {
     if (feed->left_out() > 0)
       talk::info("{}: {} touches were left out, as others touched more often than is felt",
                  feed->guest().view(), feed->left_out());
-  for (auto& consumer : consumers_) {
-    if (auto finished = consumer->finish(); !finished) talk::error("{}", finished.error().what);
-  }
+  for (Listening& each : consumers_)
+    if (auto finished = each.consumer->finish(); !finished)
+      talk::error("{}", finished.error().what);
+}
+
+void House::open_inputs() {
+  HouseInputs::Options options;
+  options.bus_url = bus_->url();
+  options.from_bus = session_.bus_captures;
+  options.hosted = hosted_guests(session_);
+  options.on_refused = [this](const GuestId& guest) {
+    troubles_.warn(refused_poses_line(guest), mono_now());
+  };
+  inputs_ = std::make_unique<HouseInputs>(*port_, *bus_, std::move(options), poller_);
+  if (!inputs_->problem().empty()) talk::warn("{}", no_house_socket_line(inputs_->problem()));
+  port_->attach(*inputs_);
+  publisher_->houses().leave_out(inputs_->socket_path());
 }
 
 Result<void> House::open_link() {
   if (session_.server.empty()) return {};
-  DANCE_TRY(const auto server, Address::resolve_all(session_.server, kDefaultServerPort));
   LinkOptions options;
   options.room = *wire::RoomName::parse(session_.room);  // the session file has checked it
-  options.listen_only = session_.guests.empty();
+  options.listen_only = session_.guests.empty() || session_.watch;
   options.interest = session_.interest;
   options.hearing = session_.hearing;
   options.channels = session_.channels;
-  LinkBus::add_face_rule(options.channels);
+  LinkBus::add_own_rules(options.channels);
   options.clock_id = this_clock_id();
   options.quality_m = session_.quality_mm * 1e-3;
   options.file_bytes_per_second = session_.avatar_bytes_per_second;
   options.pose_bytes_per_second = session_.pose_bytes_per_second;
-  for (const GuestId& guest : session_.guests)
+  const std::vector<GuestId> guests = session_.watch ? std::vector<GuestId>() : session_.guests;
+  for (const GuestId& guest : guests)
     if (!options.guests.contains(guest) && !options.guests.try_push(guest))
       return fail("a house has at most 16 guests");
   LinkHandlers handlers = link_bus_->handlers();
@@ -171,11 +179,14 @@ Result<void> House::open_link() {
   LinkKeySource source;
   source.key_file = session_.key_file;
   source.certificates = {session_.certificate, session_.private_key, session_.authorities};
-  const GuestId first = options.guests.empty() ? GuestId() : options.guests[0];
-  DANCE_TRY(const LinkKey key, choose_link_key(session_.server, options.room, first, source));
-  DANCE_TRY(link_, Link::open(server, key, options, std::move(handlers), poller_));
+  const GuestId first = session_.guests.empty() ? GuestId() : session_.guests.front();
+  options.look_up = look_up_of(session_.server);
+  DANCE_TRY(const FoundServer server,
+            find_server(session_.server, options.look_up, options.room, first, source, poller_));
+  if (server.addresses.empty()) talk::warn("{}", unknown_name_line(server.why));
+  DANCE_TRY(link_, Link::open(server.addresses, server.key, options, std::move(handlers), poller_));
   link_bus_->attach(*link_);
-  for (const GuestId& guest : session_.guests) link_bus_->send_signals_of(guest);
+  for (const GuestId& guest : guests) link_bus_->send_signals_of(guest);
   if (!options.listen_only) link_bus_->send_channels(session_.channels);
   link_bus_->follow_hearing(session_.hearing);
   if (!session_.needs_hidden_guests()) link_bus_->follow_interest(session_.interest);
@@ -188,6 +199,7 @@ void House::add_talk(LinkHandlers& handlers) {
     if (state == LinkState::kConnected) {
       troubles_.forget();
       talk::info("in room '{}' on {}", session_.room, session_.server);
+      for (PlacedSalsa* dancer : std::exchange(placed_, {})) dancer->arrive(mono_now());
     }
     if (state == LinkState::kLapsed)
       talk::warn("the server {} is silent; the house dances on, and asks it again",
@@ -209,6 +221,12 @@ void House::add_talk(LinkHandlers& handlers) {
   handlers.on_no_answer = [this](const Address& address) {
     troubles_.warn(no_answer_line(address), mono_now());
   };
+  handlers.on_new_address = [this](const Address& address) {
+    talk::info("{}", new_address_line(session_.server, address));
+  };
+  handlers.on_unknown_name = [this](const std::string& why) {
+    troubles_.warn(unknown_name_line(why), mono_now());
+  };
   handlers.on_no_entry = [this](SealTrouble trouble) {
     troubles_.warn(no_entry_line(trouble, session_.server), mono_now());
   };
@@ -218,7 +236,7 @@ void House::add_talk(LinkHandlers& handlers) {
 }
 
 Result<void> House::open_avatars() {
-  avatars_ = std::make_unique<HouseAvatars>(*port_, this_clock_id());
+  avatars_ = std::make_unique<HouseAvatars>(*inputs_, this_clock_id());
   const AvatarStore store = AvatarStore::of_user();
   for (const HostedAvatar& avatar : session_.avatars) {
     auto chosen = choose_avatar(avatar.choice, store, data_folder() + "/avatars");
@@ -231,10 +249,19 @@ Result<void> House::open_avatars() {
 
 Result<void> House::open_producers() {
   for (const HostedProducer& producer : session_.producers) {
-    DANCE_TRY(auto dancer, make_dancer(producer, captures_->captures().music()));
+    MonoTime start = mono_now();
+    std::unique_ptr<Dancer> dancer;
+    if (producer.kind == HostedProducer::Kind::kSalsa) {
+      start = calendar_zero();
+      DANCE_TRY(auto salsa, make_salsa(producer, captures_->captures().music(), start));
+      show_others_to(*salsa);
+      role_controls_.push_back(open_role_control_of(*salsa, producer.guest, bus_->url(), poller_));
+      dancer = std::move(salsa);
+    } else {
+      DANCE_TRY(dancer, make_clip(producer));
+    }
     feeds_.push_back(std::make_unique<DancerFeed>(std::move(dancer), producer.guest,
-                                                  producer.rate_hz, *captures_, poller_,
-                                                  start_of(producer, mono_now())));
+                                                  producer.rate_hz, *captures_, poller_, start));
   }
   for (const HostedReceiver& receiver : session_.receivers) {
     DANCE_TRY(auto opened, open_receiver(receiver.from, receiver.options, *captures_, poller_));
@@ -242,6 +269,17 @@ Result<void> House::open_producers() {
     receivers_.push_back(std::move(opened));
   }
   return {};
+}
+
+// A synthetic dancer finds a spot of its own among the others, from the moment at which this house
+// joins the room.
+void House::show_others_to(PlacedSalsa& salsa) {
+  for (const Where where : {Where::kCapture, Where::kGuest})
+    inputs_->subscribe<Pose>(where,
+                             [&salsa](const Channel& channel, const Pose& pose, MonoTime now) {
+                               salsa.update_other(channel.guest(), pose, now);
+                             });
+  placed_.push_back(&salsa);
 }
 
 Result<void> House::open_consumers() {
@@ -257,9 +295,19 @@ Result<void> House::open_consumers() {
     talk::info("passes {} on as {}", wanted.from.where == Where::kStage ? "the stage" : "captures",
                is_file ? wanted.to + " to " + options.file : wanted.to);
     feed_consumer(*port_, From(wanted.from.where, wanted.from.guest), *consumer);
-    consumers_.push_back(std::move(consumer));
+    consumers_.push_back({std::move(consumer)});
   }
   return {};
+}
+
+// A disk that is full is reported when it happens, and dancers go on.
+void House::flush_consumers(MonoTime now) {
+  for (Listening& each : consumers_) {
+    each.consumer->on_second(now);
+    const auto flushed = each.consumer->flush();
+    if (!flushed && !each.has_failed) talk::error("{}", flushed.error().what);
+    each.has_failed = !flushed;
+  }
 }
 
 // A device that is not there now is no reason not to dance.

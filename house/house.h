@@ -15,15 +15,19 @@
 
 #include "consumers/consumer_table.h"
 #include "core/bus/bus.h"
+#include "core/control/house_inputs.h"
+#include "core/control/house_publisher.h"
 #include "core/net/poller.h"
 #include "core/program/message_throttle.h"
 #include "haptics/haptic_control.h"
+#include "house/dancer/hosted_salsa.h"
 #include "house/headset/house_headset.h"
 #include "house/house_avatars.h"
 #include "house/house_camera.h"
 #include "house/house_haptics.h"
 #include "house/house_music.h"
 #include "house/house_port.h"
+#include "house/house_profiles.h"
 #include "house/session.h"
 #include "house/voice/house_voice.h"
 #include "manager/manager.h"
@@ -51,10 +55,13 @@ class House {
 
  private:
   House(const HouseConfig& session, Poller& poller);
+  void open_inputs();
   Result<void> open_link();
   Result<void> open_avatars();
   Result<void> open_producers();
+  void show_others_to(PlacedSalsa& salsa);
   Result<void> open_consumers();
+  void flush_consumers(MonoTime now);
   void open_haptics();
   void open_haptic_controls();
   void add_talk(LinkHandlers& handlers);
@@ -62,19 +69,29 @@ class House {
   HouseConfig session_;
   Poller& poller_;
   std::unique_ptr<Bus> bus_;
+  std::unique_ptr<HousePublisher> publisher_;  // to the bus, and to links that run by themselves
   std::unique_ptr<HousePort> port_;
+  std::unique_ptr<HouseInputs> inputs_;
   std::unique_ptr<PortCaptureSink> captures_;  // of hosted producers
+  std::unique_ptr<Captures> link_captures_;
   std::unique_ptr<LinkAvatars> link_avatars_;
   std::unique_ptr<LinkBus> link_bus_;
   std::unique_ptr<Link> link_;
   std::unique_ptr<Manager> manager_;
   std::vector<std::unique_ptr<DancerFeed>> feeds_;
+  std::vector<PlacedSalsa*> placed_;  // of feeds_, until the house has joined its room
+  std::vector<std::unique_ptr<ProgramControl>> role_controls_;
   std::vector<std::unique_ptr<PoseReceiver>> receivers_;
-  std::vector<std::unique_ptr<PoseConsumer>> consumers_;
+  struct Listening {
+    std::unique_ptr<PoseConsumer> consumer;
+    bool has_failed = false;
+  };
+  std::vector<Listening> consumers_;
   std::vector<std::unique_ptr<HapticFeed>> haptics_;
   std::vector<std::unique_ptr<HouseHaptics>> haptic_programs_;
   std::vector<std::unique_ptr<HapticControl>> haptic_controls_;  // one of each guest
   std::unique_ptr<HouseAvatars> avatars_;
+  std::unique_ptr<HouseProfiles> profiles_;
   std::unique_ptr<HouseMusic> music_;
   std::unique_ptr<HouseVoice> voice_;
   std::vector<std::unique_ptr<HouseCamera>> cameras_;

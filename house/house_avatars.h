@@ -1,5 +1,6 @@
-// HouseAvatars: what the guests of this house look like: as the session file says it, or as
-// somebody has chosen since, on the bus; said again each second, for displays that start later.
+// HouseAvatars: what the guests of this house look like: as the session file states it, or as a
+// program of this user has chosen since. Published again each second, for displays that start
+// later.
 //
 // Units/frames: times of this house's clock.
 // Ownership:    refers to the port, which must outlive it.

@@ -23,6 +23,7 @@ std::vector<std::string> music_arguments(const HostedMusic& music, const std::st
   if (music.loop) words.emplace_back("--loop");
   if (music.silent) words.emplace_back("--silent");
   if (music.microphone) words.emplace_back("--microphone");
+  if (!music.band.empty()) add("--band", music.band);
   if (!music.beats.empty()) add("--beats", music.beats);
   if (music.volume != 1.0) add("--volume", std::to_string(music.volume));
   if (music.trim_ms != 0.0) add("--trim", std::to_string(music.trim_ms) + "ms");

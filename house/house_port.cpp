@@ -25,6 +25,9 @@ bool HousePort::is_hosted(Signal signal, Where where, const GuestId& guest) cons
 void HousePort::send(const Channel& channel, const AnyMessage& message) {
   // The display is on the bus; what is hosted here may take its time over the stage.
   if (channel.where() == Where::kStage) bus_.send(channel, message);
+  // A capture goes to the network before this house's own stage.
+  if (channel.where() == Where::kCapture && inputs_ != nullptr)
+    inputs_->receive_own(channel, message, mono_now());
   if (is_hosted(channel.signal(), channel.where(), channel.guest())) {
     const MonoTime now = mono_now();
     for (const auto& subscription : subscriptions_)
@@ -37,6 +40,8 @@ void HousePort::send(const Channel& channel, const AnyMessage& message) {
 void HousePort::add(std::shared_ptr<Subscription> subscription) {
   const From& from = subscription->from();
   const Signal signal = subscription->signal();
+  if (signal == Signal::kFlow && from.where == Where::kCapture && inputs_ != nullptr)
+    return inputs_->add(std::move(subscription));
   subscriptions_.push_back(subscription);
   if (is_hosted(signal, from.where, from.guest)) return;
   if (from.where == Where::kCapture && is_motion(signal))

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/bus/signal_port.h"
+#include "core/control/house_inputs.h"
 
 namespace dance {
 
@@ -27,6 +28,9 @@ class HousePort final : public SignalPort {
  public:
   HousePort(SignalPort& bus, HostedParts hosted) : bus_(bus), hosted_(std::move(hosted)) {}
 
+  // Takes what this port publishes, and how guests are to be shown; it must outlive the port's use.
+  void attach(HouseInputs& inputs) { inputs_ = &inputs; }
+
   void send(const Channel& channel, const AnyMessage& message) override;
   void add(std::shared_ptr<Subscription> subscription) override;
   const Counters& counters() const override { return bus_.counters(); }
@@ -35,6 +39,7 @@ class HousePort final : public SignalPort {
   bool is_hosted(Signal signal, Where where, const GuestId& guest) const;
 
   SignalPort& bus_;
+  HouseInputs* inputs_ = nullptr;
   HostedParts hosted_;
   std::vector<std::shared_ptr<Subscription>> subscriptions_;
 };

@@ -5,7 +5,9 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <iostream>
 
+#include "core/base/text/guest_id_hint.h"
 #include "core/net/mono_clock.h"
 #include "core/program/child_process.h"
 #include "core/program/program.h"
@@ -13,7 +15,9 @@
 #include "house/dancer/session_partner.h"
 #include "house/house.h"
 #include "house/session_guests.h"
+#include "producers/music/band/band_song.h"
 #include "tunnel/invitation/open_invitation.h"
+#include "viewer/scene/place.h"
 
 namespace dance {
 namespace {
@@ -24,6 +28,8 @@ constexpr const char* kExamples = R"(Examples:
   dance join dance.example.org --guest alice --room salsa
                                                      without a file: own captures to the stage and
                                                      the room; the others predicted, in rhythm
+  dance join dance.example.org --guest alice --shown-name "Alicia López"
+                                                     the others see this name
   dance join sessions/alice.toml --want default=4 --want bob=1
                                                      bob in full, of the others each fourth pose
   dance join dance.example.org --guest alice --camera auto
@@ -34,40 +40,62 @@ constexpr const char* kExamples = R"(Examples:
                                                      alice is drawn so, at the others' too
   dance join dance.example.org --guest alice --voice
                                                      alice speaks, and hears the others
-  dance join sessions/alice.toml --alone --partner follow
+  dance join sessions/alice.toml --alone --partner lead
                                                      without the server; a synthetic partner
   dance join sessions/alice.toml --alone --music song.ogg --view mirror
                                                      practice with music, before a mirror
+  dance join sessions/alice.toml --watch             with alice's key, without dancing
   dance join sessions/alice.toml --no-view           without a window
 )";
 
+constexpr const char* kUsualBand = "salsa";
+
 struct JoinOptions {
   std::string host_or_session;
+  bool is_invited = false;  // by an invitation: then it is a host, whatever files are here
   std::vector<std::string> guests;
+  std::vector<std::string> shown_names;
   std::string room;
   std::vector<std::string> want;
   std::vector<std::string> hear;
   std::string bus;
+  std::vector<std::string> bus_captures;
   std::string camera;
   bool headset = false;
   std::vector<std::string> avatars;
   std::string partner;
   std::string music;
+  std::string band;
   std::string view;
+  std::string place;
   bool alone = false;
+  bool confirms = false;
   bool voice = false;
+  bool watch = false;
   bool no_view = false;
   bool json = false;
 };
 
 Result<GuestId> guest_of(const std::string& name) {
   const auto guest = GuestId::parse(name);
-  if (!guest) return fail("--guest '" + name + "': " + kGuestIdRule);
+  if (!guest) return fail("--guest " + guest_id_error(name));
   return *guest;
 }
 
-bool is_session_file(const std::string& host_or_session) {
-  return host_or_session.ends_with(".toml") || std::filesystem::exists(host_or_session);
+bool is_session_file(const JoinOptions& options) {
+  const std::string& name = options.host_or_session;
+  return !options.is_invited && (name.ends_with(".toml") || std::filesystem::exists(name));
+}
+
+// A click on a link is not consent: the desktop's entry for links asks here where no window can.
+bool is_confirmed(const Invitation& invitation) {
+  const bool sends = invitation.role != KeyKind::kListener;
+  std::fprintf(stderr, "Join %s on %s as %s? %s [y/N] ",
+               invitation.room.is_set() ? std::string(invitation.room.view()).c_str() : "dance",
+               invitation.server().c_str(), std::string(invitation.guest.view()).c_str(),
+               sends ? "The others receive your motion." : "You only watch and listen.");
+  std::string answer;
+  return std::getline(std::cin, answer) && (answer == "y" || answer == "Y" || answer == "yes");
 }
 
 // Other users of this machine see a program's arguments: its key is no longer among them.
@@ -79,12 +107,15 @@ void hide_invitations(int argc, char** argv) {
 // The invitation in the place of HOST, --guest and --room; those that are given go before it.
 Result<void> use_invitation(JoinOptions& options) {
   DANCE_TRY(const Invitation invitation, parse_invitation(options.host_or_session));
+  if (options.confirms && !is_confirmed(invitation))
+    return fail("not confirmed: the invitation was not used, and no server was contacted");
   DANCE_TRY(const Opened opened, open_invitation(invitation));
   if (opened == Opened::kNow)
     talk::info("the invitation of {} is opened, and its key kept here", invitation.title());
   else
     talk::info("the invitation of {} was opened here before", invitation.title());
   options.host_or_session = invitation.server();
+  options.is_invited = true;
   if (options.room.empty()) options.room = invitation.room.view();
   const bool dances = invitation.role != KeyKind::kListener;
   if (options.guests.empty() && dances) options.guests.emplace_back(invitation.guest.view());
@@ -137,7 +168,7 @@ Result<void> put_into_headset(HouseConfig& session) {
 
 Result<HouseConfig> session_of(const JoinOptions& options) {
   HouseConfig session;
-  if (is_session_file(options.host_or_session)) {
+  if (is_session_file(options)) {
     DANCE_TRY(session, load_session(options.host_or_session));
   } else {
     session.server = options.host_or_session;
@@ -149,6 +180,9 @@ Result<HouseConfig> session_of(const JoinOptions& options) {
     guests.push_back(guest);
   }
   if (!guests.empty()) replace_guests(session, guests);
+  for (const std::string& name : options.shown_names)
+    if (auto set = set_shown_name(session, name); !set)
+      return fail("--shown-name " + set.error().what);
   if (!options.room.empty()) session.room = options.room;
   if (!GuestId::parse(session.room))
     return fail("--room '" + session.room +
@@ -181,6 +215,7 @@ Result<HouseConfig> session_of(const JoinOptions& options) {
     session.voice.emplace().guest = session.guests.front();
   }
   if (options.voice) session.voice->enabled = true;
+  if (options.watch || session.watch) only_watch(session);
   if (options.alone) dance_alone(session);
   if (!options.partner.empty()) {
     if (auto added = add_partner(session, options.partner); !added)
@@ -188,7 +223,19 @@ Result<HouseConfig> session_of(const JoinOptions& options) {
   }
   if (!options.music.empty()) practise_to(session, options.music);
   if (!options.bus.empty()) session.bus = options.bus;
+  for (const std::string& name : options.bus_captures) {
+    const auto guest = GuestId::parse(name);
+    if (!guest) return fail("--bus-captures '" + name + "': " + kGuestIdRule);
+    session.bus_captures.push_back(*guest);
+  }
   if (options.no_view) session.view = false;
+  // Without a window the house is a service, which plays no band unless it is asked to.
+  const std::string band = options.band.empty() && session.view ? kUsualBand : options.band;
+  if (!band.empty() && band != kNoBand) {
+    if (!band_style_of(band))
+      return fail("--band '" + band + "': the band plays " + band_style_names() + ", or none");
+    let_band_play(session, band);
+  }
   if (auto checked = check_guests(session); !checked) return tl::make_unexpected(checked.error());
   return session;
 }
@@ -200,7 +247,9 @@ std::vector<std::string> viewer_arguments(const JoinOptions& options, const Hous
   if (!options.view.empty()) arguments.insert(arguments.end(), {"--view", options.view});
   if (!options.view.empty() && !session.guests.empty())
     arguments.insert(arguments.end(), {"--focus", std::string(session.guests.front().view())});
-  if (is_session_file(options.host_or_session))
+  arguments.insert(arguments.end(),
+                   {"--place", options.place.empty() ? session.window.place : options.place});
+  if (is_session_file(options))
     arguments.insert(arguments.end(), {"--session", options.host_or_session});
   return arguments;
 }
@@ -258,6 +307,10 @@ int main(int argc, char** argv) {
       .required();
   line.add("--guest", options.guests, "who dances here, instead of the session file's guests")
       .guest_name();
+  line.add(
+      "--shown-name", options.shown_names,
+      "the name that people see instead of the first guest's, as \"Ana López\"; GUEST=NAME for "
+      "another guest; may be repeated");
   line.add("--room", options.room, "which room, instead of the session file's");
   line.add("--want", options.want,
            "how many of a guest's poses come here, instead of the session file's want: NAME=1 "
@@ -282,6 +335,8 @@ int main(int argc, char** argv) {
       "name that dance avatar list shows, or words of a look; NAME=AVATAR for another guest");
   line.add_flag("--voice", options.voice,
                 "the first guest speaks with the others and hears them, as dance voice does");
+  line.add_flag("--watch", options.watch,
+                "only watches: nobody of this house dances or speaks in the room");
   line.add_flag("--alone", options.alone, "without the session file's server: nobody else comes");
   line.add(
       "--partner", options.partner,
@@ -289,9 +344,26 @@ int main(int argc, char** argv) {
       ".lcm)");
   line.add("--music", options.music,
            "plays this file over and over, instead of the session file's music");
+  line.add("--band", options.band,
+           "style of the house band, which plays where neither the session file nor the room has "
+           "other music: " +
+               dance::band_style_names() + ", none; with a window it is salsa");
   line.add("--view", options.view, "the viewer's view, of the first guest: as dance view --view")
       .one_of({"orbit", "follow", "mirror", "first-person", "compare", "grid"});
+  std::vector<std::string> places;
+  for (const dance::PlaceName& it : dance::kPlaceNames) places.emplace_back(it.option);
+  line.add("--place", options.place, "where the viewer's stage is: as dance view --place")
+      .one_of(places);
   line.add("--bus", options.bus, "LCM URL of the house's bus, instead of the session file's");
+  line.add("--bus-captures", options.bus_captures,
+           "guest whose captures are accepted from the bus, for programs that are not part of "
+           "DanceGraph, besides the guests that the session file names; any user of this machine "
+           "can "
+           "then dance and speak as this guest; may be repeated")
+      .guest_name();
+  line.add_flag(
+      "--confirm", options.confirms,
+      "asks on the terminal before it opens an invitation, as for a link that was clicked");
   line.add_flag("--no-view", options.no_view, "no viewer");
   line.add_flag("--json", options.json, "write what was counted to stdout at the end");
   line.footer(dance::kExamples);

@@ -8,11 +8,14 @@
 #include "consumers/rate_limit.h"
 #include "core/base/beat.h"
 #include "core/program/whole_file.h"
+#include "formats/kind/file_content.h"
 #include "formats/session/session_edit.h"
+#include "formats/session/toml_places.h"
 #include "house/session_guests.h"
 #include "house/session_haptics.h"
 #include "house/session_producers.h"
 #include "house/toml_reader.h"
+#include "producers/music/band/band_song.h"
 #include "transformers/flow.h"
 #include "transformers/style/style_presets.h"
 
@@ -61,6 +64,12 @@ void read_house(TomlReader& reader, const std::filesystem::path& folder, HouseCo
     session.guests.push_back(read_guest(reader, "guests", guest));
   if (session.guests.size() > kMaxGuestsPerHouse)
     reader.complain("guests", "at most 16 guests dance in one house");
+  if (const auto name = reader.maybe_string("shown_name"))
+    if (const auto set = set_shown_name(session, *name); !set)
+      reader.complain("shown_name", set.error().what);
+  for (const std::string& name : reader.strings("shown_names", "[\"ann=Ann\", \"bob=Bob\"]"))
+    if (const auto set = set_shown_name(session, name); !set)
+      reader.complain("shown_names", set.error().what);
   session.room = reader.string_or("room", session.room);
   if (!GuestId::parse(session.room))
     reader.complain("room", "a room's name is 1 to 24 characters of a-z, 0-9 and '-'");
@@ -70,7 +79,10 @@ void read_house(TomlReader& reader, const std::filesystem::path& folder, HouseCo
   session.private_key = read_file_name(reader, "private_key", folder);
   session.authorities = read_file_name(reader, "authorities", folder);
   session.bus = reader.string_or("bus", "");
+  for (const std::string& guest : reader.strings("bus_captures", "[\"alice\"]"))
+    session.bus_captures.push_back(read_guest(reader, "bus_captures", guest));
   session.view = reader.bool_or("view", true);
+  session.watch = reader.bool_or("watch", false);
   session.quality_mm = reader.number_or("quality_mm", session.quality_mm, 0.125, 20.0);
   session.pose_bytes_per_second = reader.number_or("pose_bytes_per_second", 0.0, 0.0, 1e6);
   session.avatar_bytes_per_second =
@@ -157,25 +169,37 @@ void read_consumer(TomlReader& reader, const std::filesystem::path& folder, Hous
 void read_music(TomlReader& reader, const std::filesystem::path& folder, HouseConfig& session) {
   HostedMusic music;
   const bool has_room = !session.server.empty();
+  music.band = reader.string_or("band", "");
+  const bool has_band = !music.band.empty() && music.band != kNoBand;
+  if (has_band && !band_style_of(music.band))
+    reader.complain("band", "is one of: " + band_style_names() + ", none");
   music.file = read_file_name(reader, "file", folder);
   music.beats = read_file_name(reader, "beats", folder);
   music.microphone = reader.bool_or("microphone", false);
   music.follow = reader.bool_or("follow", has_room && !music.microphone);
   if (const auto guest = reader.maybe_string("guest"))
     music.guest = read_guest(reader, "guest", *guest);
-  else if (has_room && !music.file.empty() && !session.guests.empty())
+  else if ((has_band || (has_room && !music.file.empty())) && !session.guests.empty())
     music.guest = session.guests.front();
   music.loop = reader.bool_or("loop", false);
   music.silent = reader.bool_or("silent", false);
-  music.volume = reader.number_or("volume", 1.0, 0.0, 1.0);
+  music.volume = reader.number_or("volume", has_band ? HostedMusic::kBandVolume : 1.0, 0.0, 1.0);
   music.steps_bpm = reader.number_or("steps_bpm", 0.0, 0.0, 400.0);
   if (music.steps_bpm > 0.0 && music.steps_bpm < kLeastTempo_bpm)
     reader.complain("steps_bpm", "is slower than anybody steps: 0, or 20 to 400");
   music.trim_ms = reader.number_or("trim_ms", 0.0, -5000.0, 5000.0);
   reader.finish();  // first, so that a misspelt key is told from a missing one
-  if (music.file.empty() && !music.follow && !music.microphone)
+  if (music.band == kNoBand) {
+    session.has_no_band = true;
+    music.band.clear();
+    if (music.file.empty() && !music.microphone) return;
+  }
+  if (has_band && (!music.file.empty() || music.microphone))
+    reader.complain("band", "plays in the place of a file or a microphone: leave one of them out");
+  if (music.file.empty() && !music.follow && !music.microphone && !has_band)
     reader.complain("file",
-                    "is missing: name the music, or write follow = true or microphone = true");
+                    "is missing: name the music, or write band = \"salsa\", follow = true or "
+                    "microphone = true");
   session.music = music;
 }
 
@@ -315,22 +339,19 @@ std::optional<Error> read_document(const toml::table& document, const std::strin
 }  // namespace
 
 Result<HouseConfig> parse_session(std::string_view text, const std::string& name) {
-  // toml++ as Debian builds it reports by exception; it ends here.
-  try {
-    const toml::table document = toml::parse(text, std::string_view(name));
+  return with_toml(text, name, [&](const toml::table& document) -> Result<HouseConfig> {
     HouseConfig session;
     if (auto problem = read_document(document, name, session))
       return tl::make_unexpected(std::move(*problem));
     if (session.routes.empty()) session.routes = default_routes();
     return session;
-  } catch (const toml::parse_error& error) {
-    const auto& begin = error.source().begin;
-    return fail(name + ":" + std::to_string(begin.line) + ":" + std::to_string(begin.column) +
-                ": " + std::string(error.description()));
-  }
+  });
 }
 
 Result<HouseConfig> load_session(const std::string& path) {
+  constexpr std::string_view kWanted = "a session file";
+  if (auto checked = check_content(path, {FileContent::kSessionFile}, kWanted); !checked)
+    return tl::make_unexpected(checked.error());
   DANCE_TRY(const std::string text, read_whole_file(path, kMaxSessionBytes));
   return parse_session(text, path);
 }

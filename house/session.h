@@ -9,6 +9,7 @@
 //               known is an error too, as a misspelt one would be silently without effect.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,6 +18,7 @@
 #include "consumers/consumer_table.h"
 #include "core/base/guest_id.h"
 #include "core/base/result.h"
+#include "core/base/text/shown_name.h"
 #include "core/signal/style.h"
 #include "haptics/haptic_table.h"
 #include "house/avatar_choice.h"
@@ -38,7 +40,7 @@ struct HostedProducer {
   GuestId guest;
   double rate_hz = 60.0;
   // salsa
-  std::string role = "lead";
+  std::string role = "any";  // any: leads, or follows a dancer who leads there
   double tempo_bpm = 180.0;
   std::int64_t seed = 1;
   // replay
@@ -91,6 +93,7 @@ struct HostedHaptics {
 
 // The music of the house, played beside it.
 struct HostedMusic {
+  static constexpr double kBandVolume = 0.6;
   std::string file;   // "" = the room's time only, or what the microphone hears
   std::string beats;  // "" = the .beats file beside it
   GuestId guest;      // plays for the room as this guest; not set = for the house alone
@@ -98,6 +101,7 @@ struct HostedMusic {
   bool loop = false;
   bool silent = false;
   bool microphone = false;
+  std::string band;  // style of the house band, which plays in the place of a file; "" = no band
   double volume = 1.0;
   double trim_ms = 0.0;
   double steps_bpm = 0.0;  // about how fast dancers step; 0 = as is heard
@@ -118,6 +122,7 @@ struct HostedAvatar {
 struct HouseConfig {
   std::vector<GuestId>
       guests;  // who dances in this house; may be empty (a house that only watches)
+  std::map<GuestId, ShownName> shown_names;  // of guests whose shown name differs from the id
   std::string room = "dance";
   std::string server;  // host:port; "" = no tunnel
   // How the server knows this house; "" = by the key that `dance key` keeps.
@@ -126,12 +131,14 @@ struct HouseConfig {
   std::string private_key;
   std::string authorities;
   std::string bus;                     // LCM URL; "" = default
+  std::vector<GuestId> bus_captures;   // whose captures are taken from the bus
   double quality_mm = 1.0;             // the largest error in a joint at the others'
   double pose_bytes_per_second = 0.0;  // of each guest, at most; 0 = whatever quality_mm takes
   double avatar_bytes_per_second = 131'072.0;  // of files of avatars, each way; 0 = none
   Interest interest;                           // whom it wants to hear, and how often
   Hearing hearing;                             // whose voices it wants
   bool view = true;                            // open the viewer (dance join)
+  bool watch = false;  // its guests enter the room and do not dance: only_watch()
   std::vector<Route> routes;
   std::vector<HostedProducer> producers;
   std::vector<HostedReceiver> receivers;
@@ -141,6 +148,7 @@ struct HouseConfig {
   std::vector<HostedHaptics> haptics;
   std::vector<HostedAvatar> avatars;
   std::optional<HostedMusic> music;
+  bool has_no_band = false;  // the house file names no music and excludes the band
   std::optional<HostedVoice> voice;
   std::vector<HostedStyle> styles;
   std::vector<ChannelRule> channels;  // that ride along, or are let in

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/text/plain_text.h"
+
 namespace dance {
 namespace {
 
@@ -58,6 +60,33 @@ void replace_guests(HouseConfig& session, std::vector<GuestId> guests) {
   session.guests = std::move(guests);
   if (session.voice && !session.voice->names_guest && !session.guests.empty())
     session.voice->guest = session.guests.front();
+}
+
+Result<void> set_shown_name(HouseConfig& session, std::string_view text) {
+  const std::size_t equals = text.find('=');
+  const auto named = equals == std::string_view::npos ? std::optional<GuestId>()
+                                                      : GuestId::parse(text.substr(0, equals));
+  if (session.guests.empty()) return fail("'" + plain_text(text) + "': no guest dances here");
+  const GuestId guest = named.value_or(session.guests.front());
+  if (!is_one_of(session.guests, guest))
+    return fail(trouble_of(session.guests, guest, "is no guest of this house"));
+  const std::string_view name = named ? text.substr(equals + 1) : text;
+  const auto shown = parse_shown_name(name);
+  if (!shown) return fail("'" + plain_text(name) + "': " + kShownNameRule);
+  session.shown_names[guest] = *shown;
+  return {};
+}
+
+void only_watch(HouseConfig& session) {
+  session.watch = true;
+  session.producers.clear();
+  session.receivers.clear();
+  session.cameras.clear();
+  session.headsets.clear();
+  session.haptics.clear();
+  session.avatars.clear();
+  session.styles.clear();
+  session.voice.reset();
 }
 
 Result<void> check_guests(const HouseConfig& session) {

@@ -18,6 +18,10 @@ std::string trouble_of_feeling(const HouseConfig& session, const GuestId& guest)
 
 // These dance instead of those of the file; the first speaks where the file names no speaker.
 void replace_guests(HouseConfig& session, std::vector<GuestId> guests);
+// "Ana López" for the first guest, or "bob=Bob" for the guest of that id.
+Result<void> set_shown_name(HouseConfig& session, std::string_view text);
+// Removes all that dances, speaks or feels; the house enters the room with its guest's key.
+void only_watch(HouseConfig& session);
 // [voice] and [[haptics]] of a session whose guests or producers are not the file's any more.
 Result<void> check_guests(const HouseConfig& session);
 

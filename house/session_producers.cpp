@@ -87,9 +87,9 @@ void read_producer(TomlReader& reader, const std::filesystem::path& folder, Hous
   producer.rate_hz = reader.number_or("rate", 60.0, 1.0, 1000.0);
   if (kind == "salsa") {
     producer.kind = HostedProducer::Kind::kSalsa;
-    producer.role = reader.string_or("role", "lead");
-    if (producer.role != "lead" && producer.role != "follow")
-      reader.complain("role", "is lead or follow");
+    producer.role = reader.string_or("role", "any");
+    if (producer.role != "any" && producer.role != "lead" && producer.role != "follow")
+      reader.complain("role", "is any, lead or follow");
     producer.tempo_bpm = reader.number_or("tempo", 180.0, 60.0, 300.0);
     producer.seed = reader.integer_or("seed", 1, 0, 1'000'000'000);
   } else if (kind == "replay") {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "producers/music/band/band_song.h"
+#include "viewer/scene/place.h"
+
 namespace dance {
 namespace {
 
@@ -49,8 +52,15 @@ WindowChoices read_window(TomlReader& reader, const std::string& folder) {
   if (window.partner.empty()) reader.complain("partner", "is lead, follow or a file");
   if (window.partner != "lead" && window.partner != "follow")
     window.partner = (std::filesystem::path(folder) / window.partner).string();
+  window.band = reader.string_or("band", window.band);
+  if (window.band != kNoBand && !band_style_of(window.band))
+    reader.complain("band", "is one of: " + band_style_names() + ", none");
   window.music = window_file(reader, "music", folder);
   window.mirror = reader.bool_or("mirror", window.mirror);
+  window.place = reader.string_or("place", window.place);
+  if (!parse_place(window.place)) reader.complain("place", "is one of: " + std::string(kPlaceList));
+  window.letters = reader.number_or("letters", window.letters, WindowChoices::kSmallestLetters,
+                                    WindowChoices::kLargestLetters);
   window.width_px = static_cast<int>(reader.integer_or(
       "width", window.width_px, WindowChoices::kLeastWidth_px, WindowChoices::kMost_px));
   window.height_px = static_cast<int>(reader.integer_or(

@@ -1,5 +1,5 @@
-// WindowChoices: the [window] of a session file: what only `dance lobby` needs. A house takes
-// no notice of it, but an error in it is told like any other.
+// WindowChoices: the [window] table of a session file, which only the window of dancers needs. A
+// house ignores it except for the place; an error in it is reported like any other.
 //
 // Units/frames: pixels.
 // Ownership:    plain values.
@@ -27,17 +27,25 @@ struct KnownRoom {
   static std::optional<KnownRoom> parse(std::string_view text);
 };
 
+// Stands for no band where a style of the house band is named.
+constexpr std::string_view kNoBand = "none";
+
 struct WindowChoices {
   static constexpr std::size_t kMostRooms = 32;
   static constexpr int kLeastWidth_px = 640, kLeastHeight_px = 480, kMost_px = 8192;
+  static constexpr double kSmallestLetters = 0.75, kLargestLetters = 2.5;
 
   std::string language;            // "en", "es", "de"; "" = as the system's
   std::vector<KnownRoom> rooms;    // the one used last comes first
   std::string partner = "follow";  // lead or follow, or a file
-  std::string music;               // to practise with; "" = none
+  std::string band = "salsa";      // style of the house band, or "none"
+  std::string music;               // to practise with; "" = the band
   bool mirror = true;              // practise before a mirror
-  int width_px = 1280;
-  int height_px = 720;
+  std::string place = "studio";    // one of the names in viewer/scene/place.h
+  double letters = 1.0;            // size of letters, times the usual one
+  // With frame and task bar they fit a screen of 1366 by 768.
+  int width_px = 1200;
+  int height_px = 640;
   bool operator==(const WindowChoices&) const = default;
 };
 

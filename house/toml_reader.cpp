@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/plain_number.h"
+#include "core/base/text/guest_id_hint.h"
 
 namespace dance {
 
@@ -106,7 +107,7 @@ void TomlReader::finish() {
 
 GuestId read_guest(TomlReader& reader, std::string_view key, const std::string& text) {
   const auto id = GuestId::parse(text);
-  if (!id) reader.complain(key, "'" + text + "': " + std::string(kGuestIdRule));
+  if (!id) reader.complain(key, guest_id_error(text));
   return id.value_or(GuestId());
 }
 

@@ -17,7 +17,8 @@ DancerFeed::DancerFeed(std::unique_ptr<Dancer> dancer, const GuestId& guest, dou
 }
 
 // By deadlines, so that lateness does not add up; what was missed is not made up for.
-void DancerFeed::say_skeleton(MonoTime now) {
+void DancerFeed::publish_skeleton(MonoTime now) {
+  published_skeleton_ = &dancer_->skeleton();
   sink_.capture(guest_, TimedSkeleton{dancer_->skeleton(), now, this_clock_id()});
   if (dancer_->is_moved_to_music(now - start_)) {
     Steps steps;
@@ -41,8 +42,9 @@ MonoTime DancerFeed::dance(MonoTime now) {
   pose.sequence = sequence_ + sent_++;
   pose.clock_id = this_clock_id();
   pose.capture_time = deadline;
-  // Nobody can decode a dancer of unknown proportions: once they go first, then after a pose.
-  if (!next_skeleton_.is_set()) say_skeleton(now);
+  // Nobody can decode a dancer of unknown proportions: new ones go before the pose, repeated ones
+  // after it.
+  if (published_skeleton_ != &dancer_->skeleton()) publish_skeleton(now);
   sink_.capture(guest_, pose, now);
 
   Hands hands;
@@ -52,7 +54,7 @@ MonoTime DancerFeed::dance(MonoTime now) {
     hands.capture_time = pose.capture_time;
     sink_.capture(guest_, hands);
   }
-  if (now >= next_skeleton_) say_skeleton(now);
+  if (now >= next_skeleton_) publish_skeleton(now);
   pacer_.advance(now);
   return pacer_.deadline();
 }

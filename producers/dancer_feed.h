@@ -1,5 +1,6 @@
 // DancerFeed: dances a Dancer into a sink at a steady rate, by absolute deadlines: numbers and
-// stamps the poses, and repeats the skeleton once a second for late subscribers; of a dancer who is
+// stamps the poses, and publishes the skeleton when it changes and once a second for late
+// subscribers; of a dancer who is
 // moved to the music it says then that the steps tell nothing about that music.
 //
 // Units/frames: `start` is the dance's own zero; it may lie in the past, so that a couple in two
@@ -32,7 +33,7 @@ class DancerFeed {
 
  private:
   MonoTime dance(MonoTime now);
-  void say_skeleton(MonoTime now);
+  void publish_skeleton(MonoTime now);
 
   std::unique_ptr<Dancer> dancer_;
   GuestId guest_;
@@ -40,6 +41,7 @@ class DancerFeed {
   MonoTime start_;
   Pacer pacer_;
   MonoTime next_skeleton_;
+  const Skeleton* published_skeleton_ = nullptr;
   std::uint32_t sequence_;
   std::uint32_t sent_ = 0;
   bool is_over_ = false;

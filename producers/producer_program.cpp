@@ -20,7 +20,7 @@ void add_producer_options(CommandLine& line, ProducerOptions& options) {
       .range(0.0, 9e18);
 }
 
-Result<StagePlace> parse_place(const std::string& text) {
+Result<ProducerPlace> parse_place(const std::string& text) {
   std::array<double, 3> numbers{};
   const char* at = text.data();
   const char* end = at + text.size();
@@ -36,7 +36,7 @@ Result<StagePlace> parse_place(const std::string& text) {
   if (count < 2 || at != end)
     return fail("'" + text +
                 "' is not a place; write x,z or x,z,heading in metres and degrees, like 0.5,-1,90");
-  return StagePlace{numbers[0], numbers[1], numbers[2]};
+  return ProducerPlace{numbers[0], numbers[1], numbers[2]};
 }
 
 Result<std::unique_ptr<ProducerProgram>> ProducerProgram::open(const ProducerOptions& options) {
@@ -46,10 +46,12 @@ Result<std::unique_ptr<ProducerProgram>> ProducerProgram::open(const ProducerOpt
   if (auto stops = program->poller_->stop_on_signals(); !stops)
     return tl::make_unexpected(stops.error());
   DANCE_TRY(program->bus_, Bus::open(options.bus));
-  program->sink_ = std::make_unique<PortCaptureSink>(*program->bus_);
+  program->port_ =
+      std::make_unique<HousePublisher>(*program->bus_, program->bus_->url(), *program->poller_);
+  program->sink_ = std::make_unique<PortCaptureSink>(*program->port_);
   program->poller_->watch(program->bus_->fd(),
                           [bus = program->bus_.get()](MonoTime now) { bus->drain(now); });
-  program->start_ = options.start_us > 0 ? MonoTime::from_us(options.start_us) : mono_now();
+  program->start_ = options.start_us != 0 ? MonoTime::from_us(options.start_us) : mono_now();
   return program;
 }
 

@@ -14,6 +14,7 @@
 
 #include "core/base/result.h"
 #include "core/bus/bus.h"
+#include "core/control/house_publisher.h"
 #include "core/net/poller.h"
 #include "core/program/command_line.h"
 #include "producers/dancer_feed.h"
@@ -30,19 +31,20 @@ struct ProducerOptions {
 void add_producer_options(CommandLine& line, ProducerOptions& options);
 
 // Where a dancer is put on the stage: "x,z" or "x,z,heading", metres and degrees about +Y.
-struct StagePlace {
+struct ProducerPlace {
   double x_m = 0.0;
   double z_m = 0.0;
   double heading_deg = 0.0;
 };
-Result<StagePlace> parse_place(const std::string& text);
+Result<ProducerPlace> parse_place(const std::string& text);
 
 class ProducerProgram {
  public:
   static Result<std::unique_ptr<ProducerProgram>> open(const ProducerOptions& options);
 
   void add(std::unique_ptr<Dancer> dancer, const GuestId& guest);
-  Bus& bus() { return *bus_; }
+  // Bus and houses.
+  SignalPort& port() { return *port_; }
   Poller& poller() { return *poller_; }
   // The music of the house.
   const BeatClock& music() const { return sink_->captures().music(); }
@@ -56,6 +58,7 @@ class ProducerProgram {
   ProducerOptions options_;
   std::unique_ptr<Poller> poller_;
   std::unique_ptr<Bus> bus_;
+  std::unique_ptr<HousePublisher> port_;
   std::unique_ptr<PortCaptureSink> sink_;
   std::vector<std::unique_ptr<DancerFeed>> feeds_;
   MonoTime start_;

@@ -56,6 +56,7 @@ Result<void> GlbConsumer::finish() {
   add(written_, together.counters.silences, " silences, in which the dancer stands still");
   add(written_, together.counters.beyond_bound, " frames left out, as they were too many");
   add(written_, recording_.overflow().total(), " messages left out, as they were too many");
+  left_out_ = together.counters.beyond_bound + recording_.overflow().total();
   DANCE_TRY(const auto bytes, write_glb(clips));
   output_->write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   return output_->flush();

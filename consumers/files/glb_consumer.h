@@ -28,6 +28,7 @@ class GlbConsumer : public PoseConsumer {
   void on_skeleton(const GuestId& guest, const Skeleton& skeleton, MonoTime now) override;
   void on_hands(const GuestId& guest, const Hands& hands, MonoTime now) override;
   Result<void> finish() override;
+  std::uint64_t left_out() const override { return left_out_; }  // known when it is finished
   std::string summary() const override;
 
  private:
@@ -38,6 +39,7 @@ class GlbConsumer : public PoseConsumer {
   GuestId only_;
   Recording recording_;
   bool is_finished_ = false;
+  std::uint64_t left_out_ = 0;
   std::string written_;
 };
 

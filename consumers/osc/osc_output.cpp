@@ -1,5 +1,7 @@
 #include "consumers/osc/osc_output.h"
 
+#include "core/program/talk.h"
+
 namespace dance {
 namespace {
 
@@ -11,6 +13,11 @@ Result<OscOutput> OscOutput::open(const std::string& address, const std::string&
   DANCE_TRY(const Address to, Address::resolve(address.empty() ? usual : address));
   DANCE_TRY(UdpSocket socket, UdpSocket::connect(to, kOnePacket));
   return OscOutput(std::move(socket), to);
+}
+
+void OscOutput::report(const char* name) {
+  if (!report_) report_.emplace(name);
+  if (const auto line = report_->tick(socket_.counters(), to_)) talk::warn("{}", *line);
 }
 
 std::string OscOutput::summary() const {

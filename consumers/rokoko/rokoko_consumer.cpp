@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/program/talk.h"
 #include "formats/rokoko/rokoko_actor.h"
 
 namespace dance {
@@ -138,6 +139,7 @@ void RokokoConsumer::send(MonoTime now) {
 }
 
 void RokokoConsumer::on_second(MonoTime now) {
+  if (const auto line = report_.tick(socket_.counters(), to_)) talk::warn("{}", *line);
   for (Dancer& dancer : dancers_)
     if (dancer.has_hands && now - dancer.hands_at > kGone) dancer.has_hands = false;
   const auto is_gone = [&](const Dancer& dancer) { return now - dancer.arrived > kGone; };

@@ -18,10 +18,11 @@
 #include <memory>
 #include <vector>
 
+#include "consumers/osc/output_report.h"
 #include "consumers/pose_consumer.h"
 #include "core/base/token_bucket.h"
 #include "core/net/udp_socket.h"
-#include "formats/rokoko/lz4_frame.h"
+#include "formats/lz4/lz4_frame.h"
 #include "formats/rokoko/rokoko_writer.h"
 
 namespace dance {
@@ -90,6 +91,7 @@ class RokokoConsumer final : public PoseConsumer {
   MonoTime first_;
   MonoTime newest_;
   Counters counters_;
+  OutputReport report_{"rokoko"};
 };
 
 }  // namespace dance

@@ -27,6 +27,7 @@ class BvhConsumer : public PoseConsumer {
   void on_skeleton(const GuestId& guest, const Skeleton& skeleton, MonoTime now) override;
   void on_hands(const GuestId& guest, const Hands& hands, MonoTime now) override;
   Result<void> finish() override;
+  std::uint64_t left_out() const override { return of_others_ + clip_.counters().beyond_bound; }
   std::string summary() const override;
 
   const MotionClip& clip() const { return clip_.body(); }

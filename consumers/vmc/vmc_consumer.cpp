@@ -69,6 +69,7 @@ void VmcConsumer::on_face(const GuestId& guest, const Face& face, MonoTime now) 
 }
 
 void VmcConsumer::on_second(MonoTime now) {
+  output_.report("vmc");
   const bool has_dancer = heard_.is_set();
   if (has_dancer && now - heard_ < kSilence) {
     writer_.write_model(guest_.guest().c_str());

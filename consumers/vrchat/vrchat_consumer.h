@@ -28,6 +28,7 @@ class VrchatConsumer final : public PoseConsumer {
 
   void on_pose(const GuestId& guest, const Pose& pose, MonoTime now) override;
   void on_skeleton(const GuestId& guest, const Skeleton& skeleton, MonoTime now) override;
+  void on_second(MonoTime) override { output_.report("vrchat"); }
   Result<void> finish() override { return {}; }
   std::string summary() const override;
 

@@ -2,28 +2,31 @@
 
 #include <algorithm>
 
+#include "formats/recorded/recorded_file.h"
 #include "formats/recording/clips_together.h"
-#include "formats/recording/log_source.h"
 
 namespace dance {
 namespace {
 
 constexpr double kLogClip_hz = 60.0;
 
-Result<std::vector<NamedClip>> dancers_of_log(const std::string& path) {
-  DANCE_TRY(LogSource log, LogSource::open(path));
+Result<std::vector<NamedClip>> dancers_of_recording(const std::string& path) {
+  DANCE_TRY(const auto file, RecordedFile::open(path));
   Recording recording;
-  if (auto read = log.read_into(recording); !read) return tl::make_unexpected(read.error());
+  if (auto read = file->read_into(recording); !read) return tl::make_unexpected(read.error());
   ClipsTogether together = clips_together(recording, kLogClip_hz);
   std::vector<NamedClip> dancers;
   for (ClipsTogether::Of& of : together.clips)
-    dancers.push_back({std::string(of.guest.view()), std::move(of.clip), {}});
+    dancers.push_back(
+        {std::string(of.guest.view()), std::move(of.clip), file->notes(), file->lost()});
   if (dancers.empty()) return fail(path + ": nobody dances in this recording");
   return dancers;
 }
 
 Result<std::vector<NamedClip>> dancers_of(const std::string& path) {
-  return path.ends_with(".lcm") ? dancers_of_log(path) : load_dancers(path);
+  DANCE_TRY(const FileKind kind, input_kind(path));
+  return kind == FileKind::kBvh || kind == FileKind::kGlb ? load_dancers(path)
+                                                          : dancers_of_recording(path);
 }
 
 std::vector<std::string> names_of_dancers(const std::vector<NamedClip>& dancers) {

@@ -1,7 +1,7 @@
-// A dancer of a recording, for a house to play: of a BVH or glTF, or of an LCM log, plain or
-// packed.
+// A dancer of a recording, for a house to play: of a BVH or glTF, an LCM log, plain or
+// packed, an MCAP file or a table.
 //
-// Units/frames: clips of logs have 60 frames a second.
+// Units/frames: clips of logs, MCAP files and tables have 60 frames a second.
 // Ownership:    plain values.
 // Threads:      none inside; reads the file on the caller's thread.
 // Failure:      an Error names the file, who dances in it, and the cure.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/program/talk.h"
 #include "house/dancer/dancer_file.h"
 
 namespace dance {
@@ -26,9 +27,11 @@ GuestId free_guest(const HouseConfig& session) {
 void dance_alone(HouseConfig& session) {
   session.server.clear();
   if (!session.music) return;
-  session.music->guest = GuestId();
+  // The band publishes its song under a guest's name, for the dance panel.
+  if (session.music->band.empty()) session.music->guest = GuestId();
   session.music->follow = false;
-  if (session.music->file.empty() && !session.music->microphone) session.music.reset();
+  const HostedMusic& music = *session.music;
+  if (music.file.empty() && !music.microphone && music.band.empty()) session.music.reset();
 }
 
 Result<void> add_partner(HouseConfig& session, const std::string& partner) {
@@ -39,7 +42,14 @@ Result<void> add_partner(HouseConfig& session, const std::string& partner) {
     if (!session.guests.empty() && it.guest == session.guests.front()) own = &it;
   if (partner == "lead" || partner == "follow") {
     producer.role = partner;
-    if (own && own->kind == HostedProducer::Kind::kSalsa) producer.tempo_bpm = own->tempo_bpm;
+    if (own && own->kind == HostedProducer::Kind::kSalsa) {
+      producer.tempo_bpm = own->tempo_bpm;
+      if (own->role == producer.role) {
+        producer.role = partner == "lead" ? "follow" : "lead";
+        talk::info("{} has the role {} already: the partner's is {}", own->guest.view(), own->role,
+                   producer.role);
+      }
+    }
   } else {
     producer.kind = HostedProducer::Kind::kReplay;
     producer.file = partner;
@@ -53,6 +63,15 @@ Result<void> add_partner(HouseConfig& session, const std::string& partner) {
   session.guests.push_back(producer.guest);
   session.producers.push_back(std::move(producer));
   return {};
+}
+
+void let_band_play(HouseConfig& session, const std::string& style) {
+  if (session.music || session.has_no_band) return;
+  HostedMusic& music = session.music.emplace();
+  music.band = style;
+  music.volume = HostedMusic::kBandVolume;
+  music.follow = !session.server.empty();
+  if (!session.guests.empty()) music.guest = session.guests.front();
 }
 
 void practise_to(HouseConfig& session, const std::string& music) {

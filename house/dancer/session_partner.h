@@ -12,11 +12,13 @@
 
 namespace dance {
 
-// Nobody else: without the server.
+// Removes the server, so that nobody else joins.
 void dance_alone(HouseConfig& session);
-// One more dancer in this house: a synthetic one who leads or follows ("lead", "follow"), or one of
-// a file; of a file with several not the one whom the first guest's stand-in is.
+// Adds one dancer to this house: a synthetic one ("lead" or "follow"), or one from a file. If the
+// file has several dancers, it takes one that the first guest does not already use.
 Result<void> add_partner(HouseConfig& session, const std::string& partner);
+// Adds the house band, unless the session has music or excludes the band.
+void let_band_play(HouseConfig& session, const std::string& style);
 // This music, over and over, for this house alone.
 void practise_to(HouseConfig& session, const std::string& music);
 

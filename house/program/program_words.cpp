@@ -25,7 +25,8 @@ int ProgramWords::begin() {
 void ProgramWords::end() {
   pipe_.let_go();
   if (pipe_.is_open()) pass_on();
-  if (!rest_.empty()) pass_on_line(std::exchange(rest_, {}));
+  if (!rest_.empty()) pass_on_line(rest_);
+  rest_.clear();
   close();
 }
 
@@ -45,7 +46,10 @@ void ProgramWords::pass_on() {
     for (std::size_t end = 0; (end = rest_.find('\n', begin)) != std::string::npos; begin = end + 1)
       pass_on_line(std::string_view(rest_).substr(begin, end - begin));
     rest_.erase(0, begin);
-    if (rest_.size() > kLongestLine) pass_on_line(std::exchange(rest_, {}));
+    if (rest_.size() > kLongestLine) {
+      pass_on_line(rest_);
+      rest_.clear();
+    }
   }
 }
 

@@ -1,5 +1,6 @@
 // HouseVoice: the voice of a house's session: a dance-voice program of its own beside the house: a
-// sound server that hangs is nothing to the dancers.
+// sound server that hangs is nothing to the dancers. While the program has no sound, the house
+// publishes VOICE_STATE in its place, without microphone and loudspeaker, for windows.
 //
 // Units/frames: none.
 // Ownership:    owns the program, which ends with it; refers to the poller, which must outlive it,
@@ -21,8 +22,15 @@ class HouseVoice {
   HouseVoice(const HostedVoice& voice, const std::string& bus, SignalPort& port, Poller& poller);
   HouseVoice(const HouseVoice&) = delete;
   HouseVoice& operator=(const HouseVoice&) = delete;
+  ~HouseVoice();
 
  private:
+  void report_silence(MonoTime now);
+
+  GuestId guest_;
+  SignalPort& port_;
+  Poller& poller_;
+  Poller::TimerId timer_ = 0;
   VoiceSign sign_;
   HostedProgram program_;
 };

@@ -15,6 +15,7 @@ namespace dance {
 class VoiceSign {
  public:
   static constexpr Duration kEndsSoon = Duration::s(1);
+  static constexpr Duration kSilent = Duration::s(3);
 
   explicit VoiceSign(std::uint64_t clock_id) : clock_id_(clock_id) {}
 
@@ -24,6 +25,8 @@ class VoiceSign {
   bool works_since(MonoTime started) const {
     return seen_.is_set() && seen_ - started >= kEndsSoon;
   }
+  // The program publishes its state once a second.
+  bool works(MonoTime now) const { return seen_.is_set() && now - seen_ < kSilent; }
 
  private:
   std::uint64_t clock_id_;

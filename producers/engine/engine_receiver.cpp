@@ -42,6 +42,7 @@ void EngineReceiver::drain(MonoTime now) {
   for (int i = 0; i < kMostATurn; ++i) {
     const std::ptrdiff_t size = socket_->receive(buffer);
     if (size < 0) return;
+    ++datagrams_;
     const std::size_t kept = std::min(static_cast<std::size_t>(size), buffer.size());
     engine::Received received = engine::decode({buffer.data(), kept});
     take(received, now);
@@ -89,6 +90,19 @@ void EngineReceiver::count(engine::Fault fault) {
       ++counters_.invalid;
       break;
   }
+}
+
+InputState EngineReceiver::state() const {
+  InputState state;
+  state.arrived = datagrams_;
+  state.poses = dancer_.counters().poses;
+  return state;
+}
+
+std::string EngineReceiver::diagnosis() const {
+  if (datagrams_ > 0) return summary();
+  return "start the engine with DanceGraph's adapter on this machine, as the same user and with "
+         "the same name";
 }
 
 std::string EngineReceiver::summary() const {

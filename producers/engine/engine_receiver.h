@@ -44,6 +44,8 @@ class EngineReceiver final : public PoseReceiver {
                                                       CaptureSink& sink, Poller& poller);
   ~EngineReceiver() override;
   std::string summary() const override;
+  InputState state() const override;
+  std::string diagnosis() const override;
 
   const Counters& counters() const { return counters_; }
   const ReceivedDancer& dancer() const { return dancer_; }
@@ -60,6 +62,7 @@ class EngineReceiver final : public PoseReceiver {
   ReceivedDancer dancer_;
   std::uint64_t session_ = 0;
   MonoTime heard_;  // a pose of that session
+  std::uint64_t datagrams_ = 0;
   Counters counters_;
 };
 

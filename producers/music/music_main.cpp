@@ -7,12 +7,17 @@
 #include <cstdio>
 
 #include "core/bus/bus.h"
+#include "core/control/house_publisher.h"
 #include "core/net/mono_clock.h"
+#include "core/net/secure_random.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "producers/music/beats_file.h"
 #include "producers/music/control/music_control.h"
+#include "producers/music/file_source.h"
 #include "producers/music/music_program.h"
+#include "producers/music/room/band_program.h"
+#include "producers/music/room/band_source.h"
 #include "producers/music/sound/microphone_beats.h"
 #include "producers/music/sound/pulse_player.h"
 #include "producers/music/tracked_song.h"
@@ -30,7 +35,10 @@ constexpr const char* kExamples = R"(Examples:
   dance music --follow                       keeps the room's time, without the song
   dance music song.ogg --silent              keeps the time only, on a machine without sound
   dance music song.ogg --trim 120ms          through a loudspeaker that is late by so much
-  dance music --microphone                   plays nothing: publishes the beat that it hears
+  dance music --band salsa                   the house band plays, one song after the other
+  dance music --band tango --guest bob --follow
+                                             the same band in all houses of the room
+  dance music --microphone                   plays nothing: publishes the beat that it records
   dance music --microphone --steps 96        where it could be heard as 192
 A song without a list of beats is analysed before it starts, within a few per cent of its length.
 A .beats file is text: seconds, TAB, position in the bar.
@@ -50,6 +58,9 @@ struct ProgramOptions {
   bool loop = false;
   bool microphone = false;
   std::string source;
+  std::string band;
+  int tempo_bpm = 0;
+  std::int64_t seed = -1;
   double steps_bpm = 0.0;
   double volume = 1.0;
   double seconds = 0.0;
@@ -134,13 +145,18 @@ Result<Duration> trim_of(const ProgramOptions& options) {
   return *trim;
 }
 
-Result<std::unique_ptr<MusicPlayer>> player_of(const ProgramOptions& options, Loaded& loaded) {
-  if (options.silent || !loaded.audio) return std::make_unique<SilentPlayer>();
-  DANCE_TRY(const Duration trim, trim_of(options));
-  auto player = PulsePlayer::open(std::move(*loaded.audio), {options.volume, trim});
+std::unique_ptr<MusicPlayer> player_or_silence(std::unique_ptr<MusicSource> source,
+                                               const ProgramOptions& options, Duration trim) {
+  auto player = PulsePlayer::open(std::move(source), {options.volume, trim});
   if (player) return std::move(*player);
   talk::warn("{}; keeps the time without sound", player.error().what);
   return std::make_unique<SilentPlayer>();
+}
+
+Result<std::unique_ptr<MusicPlayer>> player_of(const ProgramOptions& options, Loaded& loaded) {
+  if (options.silent || !loaded.audio) return std::make_unique<SilentPlayer>();
+  DANCE_TRY(const Duration trim, trim_of(options));
+  return player_or_silence(std::make_unique<FileSource>(std::move(*loaded.audio)), options, trim);
 }
 
 void stop_after(Poller& poller, double seconds) {
@@ -193,19 +209,67 @@ std::unique_ptr<MusicControl> control_of(const ProgramOptions& options, MusicPro
                                          Poller& poller) {
   if (options.silent || options.file.empty()) return nullptr;
   auto control = MusicControl::open(
-      options.bus, [&program](double volume) { program.set_volume(volume); }, poller);
+      options.bus,
+      [&program](const MusicCommand& command) {
+        if (command.what == MusicCommand::What::kVolume) program.set_volume(command.volume);
+      },
+      poller);
   if (control) return std::move(*control);
   talk::warn("{}", control.error().what);
   return nullptr;
 }
 
+Result<BandRoom::Options> band_options(const ProgramOptions& options) {
+  BandRoom::Options band;
+  const auto style = band_style_of(options.band);
+  if (!style) return fail("--band '" + options.band + "': the band plays " + band_style_names());
+  band.style = *style;
+  band.tempo_bpm = options.tempo_bpm;
+  band.follows = options.follow;
+  band.clock_id = this_clock_id();
+  band.seed = static_cast<std::uint32_t>(
+      options.seed >= 0 ? static_cast<std::uint64_t>(options.seed) : secure_random_u64());
+  if (!options.guest.empty()) band.guest = *GuestId::parse(options.guest);
+  const int bpm = options.tempo_bpm > 0 ? options.tempo_bpm : usual_tempo_bpm(*style);
+  if (!is_valid(band_song(*style, band.seed, bpm)))
+    return fail("--tempo " + std::to_string(bpm) + ": the band plays " + options.band +
+                " at about " + std::to_string(usual_tempo_bpm(*style)) + " beats a minute");
+  return band;
+}
+
+Result<void> play_band(const ProgramOptions& options) {
+  DANCE_TRY(const BandRoom::Options band, band_options(options));
+  DANCE_TRY(const Duration trim, trim_of(options));
+  DANCE_TRY(auto poller, Poller::create());
+  if (auto stops = poller->stop_on_signals(); !stops) return stops;
+  DANCE_TRY(auto bus, Bus::open(options.bus));
+  HousePublisher port(*bus, bus->url(), *poller);
+  BandProgram program(band, options.volume, port, *poller);
+  if (!options.silent) {
+    DANCE_TRY(auto source, BandSource::make(program.set(), best_band_sound()));
+    talk::info("the house band: {}", source->sound());
+    program.set_player(player_or_silence(std::move(source), options, trim));
+  }
+  poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
+  const auto control = MusicControl::open(
+      options.bus, [&program](const MusicCommand& command) { program.apply(command); }, *poller);
+  if (!control) talk::warn("{}", control.error().what);
+  stop_after(*poller, options.seconds);
+  poller->run();
+  program.stop(mono_now());
+  poller->unwatch(bus->fd());
+  talk::info("{} beats published; {}", program.publisher().published(), program.summary());
+  return {};
+}
+
 Result<void> play(const ProgramOptions& options) {
   if (auto hint = check_hint(options); !hint) return hint;
+  if (!options.band.empty()) return play_band(options);
   if (options.microphone) return follow_microphone(options);
   if (options.file.empty() && !options.follow)
     return fail(
-        "nothing to play: name a file, keep the room's time with --follow, or listen with "
-        "--microphone");
+        "nothing to play: name a file, let the house band play with --band salsa, keep the room's "
+        "time with --follow, or listen with --microphone");
   // Before the poller handles signals: Ctrl-C ends the program while the song is analysed.
   DANCE_TRY(Loaded loaded, load(options));
   DANCE_TRY(auto poller, Poller::create());
@@ -220,7 +284,8 @@ Result<void> play(const ProgramOptions& options) {
   DANCE_TRY(auto player, player_of(options, loaded));
   DANCE_TRY(auto bus, Bus::open(options.bus));
   DANCE_TRY(program_options.begin, start_of(options, mono_now()));
-  MusicProgram program(std::move(program_options), std::move(player), *bus, *poller);
+  HousePublisher port(*bus, bus->url(), *poller);
+  MusicProgram program(std::move(program_options), std::move(player), port, *poller);
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
   const auto control = control_of(options, program, *poller);
   stop_after(*poller, options.seconds);
@@ -251,6 +316,11 @@ int main(int argc, char** argv) {
   line.add_flag("--microphone", options.microphone,
                 "play nothing, and publish the beat of what the microphone records");
   line.add("--source", options.source, "which microphone; `pactl list short sources` names them");
+  line.add("--band", options.band, "let the house band play: " + dance::band_style_names());
+  line.add("--tempo", options.tempo_bpm, "beats a minute of the band; 0 = as the style is danced")
+      .range(0, 400);
+  line.add("--seed", options.seed, "of the band's first song; -1 = another one each time")
+      .range(-1.0, 4294967295.0);
   line.add("--steps", options.steps_bpm,
            "about how many steps a minute are danced to it, where its beats are heard at half or "
            "double of that; 0 = what is heard")

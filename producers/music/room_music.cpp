@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/text/plain_text.h"
+
 namespace dance {
 namespace {
 
@@ -29,7 +31,8 @@ MusicTitle music_title(const std::string& path) {
   if (const std::size_t dot = name.find_last_of('.'); dot != std::string::npos && dot > 0)
     name.resize(dot);
   MusicTitle title;
-  // A cut within a UTF-8 character leaves no valid text: one byte less, then.
+  name = plain_text(name);
+  // A cut within a UTF-8 character leaves no valid text: try one byte less.
   for (std::size_t size = std::min<std::size_t>(name.size(), 63); size > 0; --size)
     if (is_plain_text(name.substr(0, size)) && title.assign(name.substr(0, size))) return title;
   [[maybe_unused]] const bool fits = title.assign("music");

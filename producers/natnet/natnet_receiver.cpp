@@ -156,6 +156,7 @@ NatNetFault NatNetReceiver::note(NatNetFault fault) {
 void NatNetReceiver::take(const Address& from, std::span<const std::uint8_t> packet,
                           MonoTime received, MonoTime now) {
   ++counters_.packets;
+  newest_from_ = from;
   const auto message = message_of(packet);
   if (!message) {
     note(NatNetFault::kTooShort);
@@ -275,6 +276,27 @@ bool NatNetReceiver::dance(const NatNetSkeleton& skeleton, MonoTime received, Mo
   Hands hands;
   if (body_->hands(hands)) dancer_.capture(hands);
   return true;
+}
+
+InputState NatNetReceiver::state() const {
+  return {.arrived = counters_.packets,
+          .poses = dancer_.counters().poses,
+          .at = place_.listen,
+          .from = newest_from_,
+          .is_clock_unusable = clock_.is_unusable()};
+}
+
+std::string NatNetReceiver::diagnosis() const {
+  if (counters_.packets > 0) return summary();
+  if (commands_)
+    return "switch on Broadcast Frame Data in Motive with the transmission type Multicast; on a "
+           "machine with several networks name its address there: --listen '" +
+           place_.listen.to_string() + "?interface=192.168.1.20'";
+  if (!place_.server.is_set())
+    return "Motive sends a unicast stream only when it is asked: name its machine: --listen '" +
+           place_.listen.to_string() + "?server=192.168.1.5'";
+  return "Motive does not answer at " + place_.server.to_string() +
+         ": check that address, the transmission type Unicast in Motive, and the firewalls";
 }
 
 std::string NatNetReceiver::summary() const {

@@ -54,6 +54,8 @@ class NatNetReceiver final : public PoseReceiver {
             MonoTime now);
 
   std::string summary() const override;
+  InputState state() const override;
+  std::string diagnosis() const override;
   const ReceivedDancer& dancer() const { return dancer_; }
   const Counters& counters() const { return counters_; }
 
@@ -100,6 +102,7 @@ class NatNetReceiver final : public PoseReceiver {
   std::unique_ptr<NatNetBody> body_;
   JointFigure figure_;
   OneWayClock clock_;
+  Address newest_from_;
   Counters counters_;
 };
 

@@ -1,6 +1,7 @@
 // dance receive: takes a dancer from another program or a device and puts them into the house.
 
 #include "core/bus/bus.h"
+#include "core/control/house_publisher.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "producers/receive/receiver_table.h"
@@ -30,7 +31,8 @@ Result<void> receive(ReceiveOptions& options) {
   DANCE_TRY(const auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return tl::make_unexpected(stops.error());
   DANCE_TRY(const auto bus, Bus::open(options.bus));
-  PortCaptureSink sink(*bus);
+  HousePublisher port(*bus, bus->url(), *poller);
+  PortCaptureSink sink(port);
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
   DANCE_TRY(const auto receiver, open_receiver(options.from, options.receiver, sink, *poller));
   if (options.seconds > 0.0) {

@@ -83,9 +83,16 @@ MonoTime LogPlayer::deadline_of(const LogEvent& event) const {
   return start_ + Duration::seconds(std::clamp(since_first, 0.0, 1e6) / options_.speed);
 }
 
+// Each round counts anew; a whole one has counted all.
+void LogPlayer::note_damage() {
+  skipped_bytes_ = std::max(skipped_bytes_, log_.skipped_bytes());
+  if (log_.unpacking().lost() >= unpacking_.lost()) unpacking_ = log_.unpacking();
+}
+
 bool LogPlayer::start_again(MonoTime now) {
   if (!options_.loop || !played_this_round_ || !log_.ended()) return false;
   ++counters_.loops;
+  note_damage();
   log_.rewind();
   played_this_round_ = false;
   has_first_ = false;

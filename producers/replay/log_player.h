@@ -13,6 +13,7 @@
 //               cannot be read on ends, and ended() says why.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -45,8 +46,11 @@ class LogPlayer {
   bool is_over() const { return is_over_; }
   Result<void> ended() const { return log_.ended(); }
   const Counters& counters() const { return counters_; }
-  std::uint64_t skipped_bytes() const { return log_.skipped_bytes(); }
-  const LogUnpacker::Counters& unpacking() const { return log_.unpacking(); }
+  // Bytes of the log that are no event; playing it again does not count them again.
+  std::uint64_t skipped_bytes() const { return std::max(skipped_bytes_, log_.skipped_bytes()); }
+  const LogUnpacker::Counters& unpacking() const {
+    return log_.unpacking().lost() >= unpacking_.lost() ? log_.unpacking() : unpacking_;
+  }
 
  private:
   // When the dance of a channel was captured, then and now.
@@ -56,6 +60,7 @@ class LogPlayer {
     MonoTime now;
   };
 
+  void note_damage();
   MonoTime play(MonoTime now);
   bool read_next();
   bool start_again(MonoTime now);
@@ -78,6 +83,8 @@ class LogPlayer {
   bool is_over_ = false;
   std::vector<Anchor> anchors_;
   Counters counters_;
+  std::uint64_t skipped_bytes_ = 0;
+  LogUnpacker::Counters unpacking_;
 };
 
 }  // namespace dance

@@ -1,13 +1,14 @@
-// dance replay: BVH and GLB files and LCM logs as dancers on the bus.
+// dance replay: recorded dances of any kind (BVH, GLB, LCM log, MCAP, table) as dancers on the bus.
 
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "formats/clip/dancers_file.h"
+#include "formats/log/unpacked_log.h"
+#include "formats/recorded/recording_log.h"
 #include "producers/producer_program.h"
 #include "producers/replay/clip_dancer.h"
 #include "producers/replay/log_player.h"
@@ -22,6 +23,7 @@ constexpr const char* kExamples = R"(Examples:
   dance replay couple.glb                            all who dance in a glTF file, by their names
   dance replay logs/evening.lcm                      a recorded session, packed or not
   dance replay logs/evening.lcm --only capture       only what the cameras saw
+  dance replay evening.mcap                          what dance listen recorded, also as .csv
   dance replay lead.bvh follow.bvh --copies 15       30 dancers
   dance replay child.bvh --unit cm --up z            where the printed estimates are wrong
 )";
@@ -53,12 +55,6 @@ void add_file_options(CommandLine& line, ReplayOptions& options) {
       .range(0.0, 1000.0);
 }
 
-bool is_lcm_log(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::array<char, 4> head{};
-  return file.read(head.data(), 4) && head == std::array<char, 4>{'\xED', '\xA1', '\xDA', '\x01'};
-}
-
 // As --guest says; else as the file does where that is a guest's name; else alice, bob, then
 // guest-3 …; copies are numbered.
 Result<GuestId> name_of(const ReplayOptions& options, const std::string& in_file,
@@ -75,7 +71,7 @@ Result<GuestId> name_of(const ReplayOptions& options, const std::string& in_file
 }
 
 // Copies stand in rows, 2.6 m apart.
-StagePlace place_of_copy(const StagePlace& place, int copy, int copies) {
+ProducerPlace place_of_copy(const ProducerPlace& place, int copy, int copies) {
   constexpr double kSpacing_m = 2.6;
   const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(copies))));
   return {place.x_m + (copy % columns) * kSpacing_m, place.z_m + (copy / columns) * kSpacing_m,
@@ -85,7 +81,7 @@ StagePlace place_of_copy(const StagePlace& place, int copy, int copies) {
 // `dancers` counts those of all files.
 Result<void> add_dancer(const ReplayOptions& options, NamedClip loaded, std::size_t& dancers,
                         ProducerProgram& program) {
-  StagePlace place;
+  ProducerPlace place;
   if (!options.place.empty()) {
     DANCE_TRY(place, parse_place(options.place));
   }
@@ -93,7 +89,7 @@ Result<void> add_dancer(const ReplayOptions& options, NamedClip loaded, std::siz
   const auto clip = std::make_shared<const MotionClip>(std::move(loaded.clip));
   for (int copy = 0; copy < options.copies; ++copy) {
     DANCE_TRY(const GuestId guest, name_of(options, loaded.name, dancer, copy));
-    const StagePlace at = place_of_copy(place, copy, options.copies);
+    const ProducerPlace at = place_of_copy(place, copy, options.copies);
     ClipDancerOptions how;
     how.end = options.once ? ClipEnd::kHold : ClipEnd::kLoop;
     how.speed = options.speed;
@@ -110,9 +106,18 @@ Result<void> add_file(const ReplayOptions& options, const std::string& file, std
   DANCE_TRY(std::vector<NamedClip> loaded, load_dancers(file, retarget));
   for (NamedClip& each : loaded) {
     for (const std::string& note : each.notes) talk::info("{}: {}", file, note);
+    if (!each.lost.empty()) talk::warn("{}: {}; the rest is played", file, each.lost);
     if (auto added = add_dancer(options, std::move(each), dancers, program); !added) return added;
   }
   return {};
+}
+
+// Opens an LCM log; an MCAP file or a table is converted to one first.
+Result<UnpackedLog> open_log(const std::string& file) {
+  DANCE_TRY(const RecordingLog log, RecordingLog::open(file));
+  for (const std::string& note : log.notes()) talk::info("{}: {}", file, note);
+  if (!log.lost().empty()) talk::warn("{}: damaged: {}; the rest is played", file, log.lost());
+  return UnpackedLog::open(log.path());
 }
 
 std::string nothing_to_play(const LogPlayer& player, bool has_only) {
@@ -133,9 +138,10 @@ Result<void> run_replay(const ReplayOptions& options) {
   std::vector<std::unique_ptr<LogPlayer>> players;
   std::size_t dancers = 0;
   for (std::size_t i = 0; i < options.files.size(); ++i) {
-    if (is_lcm_log(options.files[i])) {
-      DANCE_TRY(UnpackedLog log, UnpackedLog::open(options.files[i]));
-      players.push_back(std::make_unique<LogPlayer>(std::move(log), log_options, program->bus(),
+    DANCE_TRY(const FileKind kind, input_kind(options.files[i]));
+    if (kind != FileKind::kBvh && kind != FileKind::kGlb) {
+      DANCE_TRY(UnpackedLog log, open_log(options.files[i]));
+      players.push_back(std::make_unique<LogPlayer>(std::move(log), log_options, program->port(),
                                                     program->poller(), program->start()));
       if (auto ended = players.back()->ended(); !ended) return ended;
       if (players.back()->is_over())
@@ -169,9 +175,11 @@ Result<void> run_replay(const ReplayOptions& options) {
 int main(int argc, char** argv) {
   dance::ReplayOptions options;
   dance::CommandLine line(
-      "Plays BVH files (.bvh, .bvh.xz), glTF files (.glb) and LCM logs as dancers on the bus.",
+      "Plays recorded dances as dancers on the bus: .bvh, .bvh.xz, .glb, .lcm, .mcap, .csv.",
       "dance replay");
-  line.add("FILE", options.files, "BVH files, one dancer each, GLBs, or LCM logs").required();
+  line.add("FILE", options.files,
+           "BVH files, one dancer each, GLBs, LCM logs, MCAP files or tables")
+      .required();
   line.add("--guest", options.guests, "who the dancers of the files are, in turn").guest_name();
   line.add("--speed", options.speed, "1 = as recorded").range(0.05, 20.0).shows_default();
   line.add_flag("--once", options.once, "stop at the end instead of beginning again");

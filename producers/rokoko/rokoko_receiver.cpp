@@ -1,5 +1,7 @@
 #include "producers/rokoko/rokoko_receiver.h"
 
+#include "core/base/printable.h"
+#include "producers/receive/input_report.h"
 #include "producers/rokoko/rokoko_body.h"
 
 namespace dance {
@@ -38,6 +40,7 @@ RokokoReceiver::~RokokoReceiver() { poller_.unwatch(socket_.fd()); }
 void RokokoReceiver::take(const Address& from, std::span<const std::uint8_t> datagram,
                           MonoTime received, MonoTime now) {
   ++datagrams_;
+  newest_from_ = from;
   const OneSender::Verdict verdict = sender_.admit(from, received);
   if (verdict == OneSender::Verdict::kOther) return;
   if (verdict == OneSender::Verdict::kReadAnew) {
@@ -93,6 +96,31 @@ bool RokokoReceiver::dance(const RokokoActor& actor, MonoTime received, MonoTime
   Hands hands;
   if (hands_of(actor, figure, hands)) dancer_.capture(hands);
   return true;
+}
+
+InputState RokokoReceiver::state() const {
+  return {.arrived = datagrams_,
+          .poses = dancer_.counters().poses,
+          .at = socket_.local_address(),
+          .from = newest_from_,
+          .is_clock_unusable = clock_.is_unusable()};
+}
+
+std::string RokokoReceiver::diagnosis() const {
+  if (datagrams_ == 0) return nothing_arrives_text(socket_.local_address());
+  if (refused(RokokoFault::kOtherVersion) > 0)
+    return "they are an older version of Rokoko's JSON; choose JSON v3 as the data format of the "
+           "custom live stream in Rokoko Studio";
+  const std::uint64_t unreadable = refused(RokokoFault::kNotLz4) + refused(RokokoFault::kNotJson) +
+                                   refused(RokokoFault::kNoScene);
+  if (unreadable > 0 && refused(RokokoFault::kNone) == 0)
+    return "they are no live stream of Rokoko Studio; choose JSON v3 as the data format of its "
+           "custom live stream";
+  if (without_actor_ > 0 && !wanted_.empty())
+    return "no actor of the stream is called '" + printable(wanted_) +
+           "'; give --actor the name that Rokoko Studio shows, or leave it out";
+  if (without_actor_ > 0) return "the stream has no actor with a body; add one in Rokoko Studio";
+  return summary();
 }
 
 std::string RokokoReceiver::summary() const {

@@ -42,6 +42,8 @@ class RokokoReceiver final : public PoseReceiver {
             MonoTime now);
 
   std::string summary() const override;
+  InputState state() const override;
+  std::string diagnosis() const override;
   const ReceivedDancer& dancer() const { return dancer_; }
   std::uint64_t refused(RokokoFault fault) const {
     return faults_[static_cast<std::size_t>(fault)];
@@ -64,6 +66,7 @@ class RokokoReceiver final : public PoseReceiver {
   FixedString<RokokoActor::kLongestName> followed_;  // whom, where none is named
   MonoTime followed_at_;
   std::array<std::uint64_t, kRokokoFaultCount> faults_{};
+  Address newest_from_;
   std::uint64_t datagrams_ = 0;
   std::uint64_t without_actor_ = 0;
   std::uint64_t incomplete_ = 0;

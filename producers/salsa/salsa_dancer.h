@@ -29,6 +29,13 @@ class SalsaDancer : public Dancer {
     return music_ && music_->is_known(start_ + t);
   }
 
+  // The role counts from the next pose on.
+  void set_role(SalsaRole role) { style_.role = role; }
+  // Hips of either role in the last pose that was danced.
+  const Eigen::Vector3f& hips_m(SalsaRole role) const {
+    return (role == SalsaRole::kLead ? lead_ : follow_).body.pose.p_WH_m;
+  }
+
   const SalsaStyle& style() const { return style_; }
   const SalsaScore& score() const { return score_; }
   double music_beats_at(Duration t) const;

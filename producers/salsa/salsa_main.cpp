@@ -1,5 +1,6 @@
 // dance salsa: a synthetic salsa dancer on the bus, for machines with no camera and no data.
 
+#include "core/net/clock/calendar_zero.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "producers/producer_program.h"
@@ -26,16 +27,15 @@ Result<void> run_salsa(SalsaOptions& options) {
   const auto guest = GuestId::parse(options.guest);
   if (!guest) return fail("--guest '" + options.guest + "': " + kGuestIdRule);
   if (!options.place.empty()) {
-    DANCE_TRY(const StagePlace place, parse_place(options.place));
+    DANCE_TRY(const ProducerPlace place, parse_place(options.place));
     options.style.x_m = place.x_m;
     options.style.z_m = place.z_m;
     options.style.heading_deg = place.heading_deg;
   }
   options.style.role = options.role == "lead" ? SalsaRole::kLead : SalsaRole::kFollow;
   DANCE_TRY(const SalsaStyle style, checked_style(options.style));
-  // To the music of the house where there is some. Unless told otherwise the dance counts from the
-  // clock's zero, so that all salsa dancers of a machine are in step.
-  if (options.producer.start_us == 0) options.producer.start_us = 1;
+  // To the music of the house where there is some; without it all salsa dancers are in step.
+  if (options.producer.start_us == 0) options.producer.start_us = calendar_zero().since_zero_us();
   DANCE_TRY(auto program, ProducerProgram::open(options.producer));
   auto dancer = std::make_unique<SalsaDancer>(style);
   dancer->listen_to(program->music(), program->start());

@@ -60,7 +60,7 @@ class TrackerBody {
   TrackerCalibration calibration_;
   Skeleton skeleton_;
   std::unique_ptr<BodyGuide> guide_;
-  BodyFit fit_;
+  TrackerBodyFit fit_;
   std::array<PlaceSmoother, kTrackedPointCount> smoothers_;
   MountRefiner refiner_;
   BodyGuess guess_;

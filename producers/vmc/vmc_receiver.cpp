@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "producers/receive/input_report.h"
+
 namespace dance {
 namespace {
 
@@ -29,10 +31,13 @@ void VmcIntake::begin_anew() {
 
 void VmcIntake::on_message(const OscMessage& message) {
   const VmcMessage parsed = parse_vmc(message);
-  if (parsed.kind == VmcMessage::Kind::kMalformed)
+  if (parsed.kind == VmcMessage::Kind::kMalformed) {
     ++malformed_;
-  else
-    assembler_.take(parsed);
+    if (parsed.has_doubles) ++with_doubles_;
+    return;
+  }
+  if (parsed.kind == VmcMessage::Kind::kBone) ++bones_;
+  assembler_.take(parsed);
 }
 
 void VmcIntake::on_frame(const ReceivedVmcFrame& frame) {
@@ -65,6 +70,25 @@ std::string VmcIntake::summary() const {
   return line;
 }
 
+std::string VmcIntake::diagnosis() const {
+  const OscReader::Counters& packets = reader_.counters();
+  if (packets.messages == 0)
+    return "they are no Open Sound Control; let the program send VMC protocol (OSC over UDP)";
+  if (with_doubles_ > 0)
+    return "their numbers are doubles (OSC type d), and VMC protocol has floats (f); let the "
+           "program send floats";
+  if (malformed_ > 0)
+    return "the values of " + std::to_string(malformed_) +
+           " messages are not those of VMC protocol: a name, three coordinates and a unit "
+           "quaternion of floats for each bone";
+  if (bones_ == 0)
+    return "they are Open Sound Control without bones (/VMC/Ext/Bone/Pos); switch on sending of "
+           "motion by VMC protocol in the program, as a Performer";
+  if (assembler_.unknown_bones() == bones_)
+    return "none of their bones has a name of Unity's humanoid skeleton, such as Hips or Spine";
+  return summary();
+}
+
 Result<std::unique_ptr<PoseReceiver>> VmcReceiver::open(const ReceiverOptions& options,
                                                         CaptureSink& sink, Poller& poller) {
   DANCE_TRY(const Address at,
@@ -84,6 +108,7 @@ VmcReceiver::~VmcReceiver() { poller_.unwatch(socket_.fd()); }
 void VmcReceiver::drain(MonoTime now) {
   // One batch a turn: what is left wakes the poller again, and others have their turn before.
   for (const UdpSocket::Datagram& datagram : socket_.receive()) {
+    newest_from_ = datagram.from;
     const OneSender::Verdict verdict = sender_.admit(datagram.from, datagram.received);
     if (verdict == OneSender::Verdict::kOther) continue;
     if (verdict == OneSender::Verdict::kReadAnew) intake_.begin_anew();
@@ -91,6 +116,19 @@ void VmcReceiver::drain(MonoTime now) {
     intake_.take(datagram.bytes, datagram.received, now);
     if (intake_.dancer().counters().poses > poses) sender_.keep(datagram.from, datagram.received);
   }
+}
+
+InputState VmcReceiver::state() const {
+  return {.arrived = socket_.counters().received,
+          .poses = intake_.dancer().counters().poses,
+          .at = socket_.local_address(),
+          .from = newest_from_,
+          .is_clock_unusable = intake_.is_clock_unusable()};
+}
+
+std::string VmcReceiver::diagnosis() const {
+  if (socket_.counters().received == 0) return nothing_arrives_text(socket_.local_address());
+  return intake_.diagnosis();
 }
 
 std::string VmcReceiver::summary() const {

@@ -37,6 +37,9 @@ class VmcIntake final : private OscMessageSink, private VmcFrameSink {
   std::string summary() const;
   const ReceivedDancer& dancer() const { return dancer_; }
   std::uint64_t malformed() const { return malformed_; }
+  bool is_clock_unusable() const { return clock_.is_unusable(); }
+  // Why what came made no pose.
+  std::string diagnosis() const;
   const OscReader::Counters& packets() const { return reader_.counters(); }
 
  private:
@@ -50,6 +53,8 @@ class VmcIntake final : private OscMessageSink, private VmcFrameSink {
   OneWayClock clock_;
   MonoTime now_;
   std::uint64_t malformed_ = 0;
+  std::uint64_t with_doubles_ = 0;  // of them
+  std::uint64_t bones_ = 0;         // messages of bones
 };
 
 class VmcReceiver final : public PoseReceiver {
@@ -60,6 +65,8 @@ class VmcReceiver final : public PoseReceiver {
                                                     CaptureSink& sink, Poller& poller);
   ~VmcReceiver() override;
   std::string summary() const override;
+  InputState state() const override;
+  std::string diagnosis() const override;
 
  private:
   VmcReceiver(const GuestId& guest, CaptureSink& sink, Poller& poller, UdpSocket socket);
@@ -69,6 +76,7 @@ class VmcReceiver final : public PoseReceiver {
   UdpSocket socket_;
   VmcIntake intake_;
   OneSender sender_;
+  Address newest_from_;
 };
 
 }  // namespace dance

@@ -8,6 +8,7 @@
 #include <openxr/openxr_platform.h>
 
 #include "core/base/printable.h"
+#include "formats/openxr/runtime_manifest.h"
 #include "producers/xr/openxr_more.h"
 
 namespace dance {
@@ -19,14 +20,23 @@ constexpr std::array<const char*, 5> kWantedExtensions{
     XR_BD_BODY_TRACKING_EXTENSION_NAME};
 constexpr const char* kOpenGl = "XR_KHR_opengl_enable";
 
+std::string why_no_runtime() {
+  const auto manifest = openxr::active_manifest(openxr::own_environment);
+  if (!manifest)
+    return "no OpenXR runtime can be had: start the headset's own (SteamVR, Monado, WiVRn) and "
+           "make "
+           "it the active one, or name its manifest in XR_RUNTIME_JSON";
+  const auto library = openxr::library_of(*manifest);
+  if (!library) return library.error().what;
+  return "the OpenXR runtime of " + *manifest + " cannot be loaded (" + *library +
+         "): install the headset's runtime again, or make another one active in its settings";
+}
+
 Result<std::vector<std::string>> offered_extensions() {
   std::uint32_t count = 0;
   const XrResult asked = xrEnumerateInstanceExtensionProperties(nullptr, 0, &count, nullptr);
   if (asked == XR_ERROR_RUNTIME_UNAVAILABLE || asked == XR_ERROR_FILE_ACCESS_ERROR)
-    return fail(
-        "no OpenXR runtime can be had: start the headset's own (SteamVR, Monado, WiVRn) and make "
-        "it "
-        "the active one, or name its manifest in XR_RUNTIME_JSON");
+    return fail(why_no_runtime());
   if (auto ok = checked(asked, "a list of what it can do"); !ok)
     return tl::make_unexpected(ok.error());
   std::vector<XrExtensionProperties> properties(count,

@@ -6,7 +6,8 @@
 // Threads:      none inside; one owner.
 // Failure:      create() says what the library refused; a frame that it refuses stays as it is, and
 //               is counted in refused().
-// Source:       the audio processing module of WebRTC, Debian's libwebrtc-audio-processing 0.3.
+// Source:       the audio processing module of WebRTC: Debian's libwebrtc-audio-processing,
+//               version 0.3 (Debian 12) or 1.3 (Debian 13).
 #pragma once
 
 #include <cstdint>

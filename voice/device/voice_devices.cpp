@@ -29,7 +29,7 @@ Result<std::unique_ptr<VoiceDevices>> VoiceDevices::open(const VoiceDeviceOption
   if (auto connected = devices->connect(); !connected)
     return tl::make_unexpected(connected.error());
   if (!devices->has_microphone() && !devices->has_loudspeaker())
-    return fail(devices->take_trouble());
+    return fail(devices->take_errors());
   return devices;
 }
 

@@ -60,7 +60,9 @@ class VoiceDevices {
   bool has_microphone() const { return microphone_ != nullptr; }
   bool has_loudspeaker() const { return loudspeaker_ != nullptr; }
   // What is missing, and the cure; "" once it has been told.
-  std::string take_trouble() { return troubles_.take(); }
+  std::string take_errors() { return troubles_.take(); }
+  // Which devices work again; "" once it has been told.
+  std::string take_recoveries() { return troubles_.take_recoveries(); }
   std::uint64_t underflows() const { return underflows_; }
   Duration ahead() const { return ahead_; }
 

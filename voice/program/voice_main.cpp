@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "core/bus/bus.h"
+#include "core/control/house_publisher.h"
 #include "core/net/mono_clock.h"
 #include "core/program/foreground.h"
 #include "core/program/program.h"
@@ -93,7 +94,8 @@ Result<void> run_voice(const VoiceOptions& options) {
   DANCE_TRY(auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return stops;
   DANCE_TRY(auto bus, Bus::open(options.bus));
-  DANCE_TRY(auto program, VoiceProgram::open(wanted, *bus, *poller));
+  HousePublisher port(*bus, bus->url(), *poller);
+  DANCE_TRY(auto program, VoiceProgram::open(wanted, port, *poller));
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
   std::optional<KeyReader> keys;
   if (wanted.has_keys)

@@ -55,7 +55,7 @@ Result<std::unique_ptr<VoiceProgram>> VoiceProgram::open(const VoiceProgramOptio
   program->subscribe();
   program->timer_ = poller.add_timer(mono_now(), [self](MonoTime now) {
     self->devices_->work(now);
-    self->say_trouble(self->devices_->take_trouble());
+    self->report_devices();
     self->say_level(now);
     if (!self->said_ || !is_same(*self->said_, self->state(now))) self->say_state(now);
     return now + VoiceDevices::kTurn;
@@ -180,10 +180,12 @@ void VoiceProgram::say_level(MonoTime now) {
   level_.level_dbfs = level_.cleaned_dbfs = kSilence_dbfs;
 }
 
-void VoiceProgram::say_trouble(const std::string& trouble) const {
-  if (trouble.empty()) return;
-  before_words();
-  talk::warn("{}; goes on with what there is", trouble);
+void VoiceProgram::report_devices() const {
+  const std::string trouble = devices_->take_errors();
+  const std::string recoveries = devices_->take_recoveries();
+  if (!trouble.empty() || !recoveries.empty()) before_words();
+  if (!trouble.empty()) talk::warn("{}; goes on with what there is", trouble);
+  if (!recoveries.empty()) talk::info("{}", recoveries);
 }
 
 void VoiceProgram::say_settings() const {

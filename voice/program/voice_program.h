@@ -57,7 +57,7 @@ class VoiceProgram {
   VoiceDeviceHandlers handlers();
   void hear_capture(const GuestId& guest, const Voice& voice, MonoTime now);
   void say_settings() const;
-  void say_trouble(const std::string& trouble) const;
+  void report_devices() const;
   void say_hearing(MonoTime now);
   VoiceState state(MonoTime now) const;
   void say_state(MonoTime now);

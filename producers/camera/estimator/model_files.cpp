@@ -24,13 +24,13 @@ std::string users_folder() {
 
 }  // namespace
 
-std::string_view name_of(PoseModel model) {
+std::string_view name_of(PoseNetworkModel model) {
   switch (model) {
-    case PoseModel::kLite:
+    case PoseNetworkModel::kLite:
       return "lite";
-    case PoseModel::kFull:
+    case PoseNetworkModel::kFull:
       return "full";
-    case PoseModel::kHeavy:
+    case PoseNetworkModel::kHeavy:
       return "heavy";
   }
   return "";
@@ -49,7 +49,7 @@ Result<PoseGraph> read_detector(const std::string& folder) {
   return read_tflite_file(folder + kDetector);
 }
 
-Result<PoseGraph> read_landmark_model(const std::string& folder, PoseModel model) {
+Result<PoseGraph> read_landmark_model(const std::string& folder, PoseNetworkModel model) {
   return read_tflite_file(folder + "/pose_landmark_" + std::string(name_of(model)) + ".tflite");
 }
 

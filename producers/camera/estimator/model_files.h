@@ -13,8 +13,8 @@
 
 namespace dance {
 
-enum class PoseModel { kLite, kFull, kHeavy };
-std::string_view name_of(PoseModel model);
+enum class PoseNetworkModel { kLite, kFull, kHeavy };
+std::string_view name_of(PoseNetworkModel model);
 
 // The folder of the options; "" where none is given: then the environment's DANCE_POSE_MODELS, and
 // without it the first that has the detector in it of
@@ -25,6 +25,6 @@ std::string_view name_of(PoseModel model);
 std::string pose_models_folder(const std::string& wished);
 
 Result<PoseGraph> read_detector(const std::string& folder);
-Result<PoseGraph> read_landmark_model(const std::string& folder, PoseModel model);
+Result<PoseGraph> read_landmark_model(const std::string& folder, PoseNetworkModel model);
 
 }  // namespace dance

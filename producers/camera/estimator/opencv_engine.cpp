@@ -244,6 +244,11 @@ OpenCvEngine::OpenCvEngine(const PoseGraph& graph) {
     outputs_.push_back(names_[static_cast<std::size_t>(as_in_file(graph, output))]);
   net_.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
   net_.setPreferableTarget(cv::dnn::DNN_TARGET_CPU);
+#if CV_VERSION_MAJOR > 4 || (CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR >= 7)
+  // Winograd convolution is faster but rounds differently. It is off so that OpenCV and XNNPACK
+  // give the same numbers.
+  net_.enableWinograd(false);
+#endif
 }
 
 bool OpenCvEngine::run() {
@@ -269,8 +274,8 @@ Result<std::unique_ptr<PoseEngine>> make_opencv_engine(const PoseGraph& graph) {
     // Layers are made when they first run.
     if (!engine->run()) return fail("OpenCV cannot run this network");
     return engine;
-  } catch (const cv::Exception& error) {
-    return fail("OpenCV cannot build this network: " + error.err);
+  } catch (const cv::Exception&) {
+    return fail("OpenCV cannot build this network; fetch the models again: dance-fetch-models");
   }
 }
 

@@ -28,7 +28,7 @@
 namespace dance {
 
 struct EstimatorOptions {
-  PoseModel model = PoseModel::kFull;
+  PoseNetworkModel model = PoseNetworkModel::kFull;
   EngineKind engine = EngineKind::kFastest;
   std::string models_folder;  // "": pose_models_folder()
   bool smooths = true;        // what estimate() returns; unfiltered() never is

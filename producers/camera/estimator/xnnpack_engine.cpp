@@ -1,6 +1,8 @@
 // PoseEngine with XNNPACK, on the caller's thread.
 #include <xnnpack.h>
 
+#include <array>
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -11,6 +13,58 @@ namespace dance {
 namespace {
 
 constexpr std::size_t kSlack = XNN_EXTRA_BYTES / sizeof(float);
+
+// XNNPACK since 2024 defines these five operators by xnn_define_unary, _binary and _static_reduce,
+// and has deprecated what Debian 12 has.
+#if DANCE_XNNPACK_HAS_UNARY
+xnn_status define_add(xnn_subgraph* g, float least, float most, std::uint32_t a, std::uint32_t b,
+                      std::uint32_t out) {
+  const xnn_binary_params range{least, most};
+  return xnn_define_binary(g, xnn_binary_add, &range, a, b, out, 0);
+}
+xnn_status define_sigmoid(xnn_subgraph* g, std::uint32_t in, std::uint32_t out) {
+  return xnn_define_unary(g, xnn_unary_sigmoid, nullptr, in, out, 0);
+}
+xnn_status define_clamp(xnn_subgraph* g, float least, float most, std::uint32_t in,
+                        std::uint32_t out) {
+  xnn_unary_params range{};
+  range.clamp = {least, most};
+  return xnn_define_unary(g, xnn_unary_clamp, &range, in, out, 0);
+}
+xnn_status define_prelu(xnn_subgraph* g, std::uint32_t in, std::uint32_t slopes,
+                        std::uint32_t out) {
+  return xnn_define_binary(g, xnn_binary_prelu, nullptr, in, slopes, out, 0);
+}
+// The mean over rows and columns. A mean has no range of its own here; it needs none where the
+// network names none.
+xnn_status define_mean(xnn_subgraph* g, float least, float most, std::uint32_t in,
+                       std::uint32_t out) {
+  if (std::isfinite(least) || std::isfinite(most)) return xnn_status_unsupported_parameter;
+  constexpr std::array<std::size_t, 2> kRowsAndColumns{1, 2};
+  return xnn_define_static_reduce(g, xnn_reduce_mean, kRowsAndColumns.size(),
+                                  kRowsAndColumns.data(), in, out, XNN_FLAG_KEEP_DIMS);
+}
+#else
+xnn_status define_add(xnn_subgraph* g, float least, float most, std::uint32_t a, std::uint32_t b,
+                      std::uint32_t out) {
+  return xnn_define_add2(g, least, most, a, b, out, 0);
+}
+xnn_status define_sigmoid(xnn_subgraph* g, std::uint32_t in, std::uint32_t out) {
+  return xnn_define_sigmoid(g, in, out, 0);
+}
+xnn_status define_clamp(xnn_subgraph* g, float least, float most, std::uint32_t in,
+                        std::uint32_t out) {
+  return xnn_define_clamp(g, least, most, in, out, 0);
+}
+xnn_status define_prelu(xnn_subgraph* g, std::uint32_t in, std::uint32_t slopes,
+                        std::uint32_t out) {
+  return xnn_define_prelu(g, in, slopes, out, 0);
+}
+xnn_status define_mean(xnn_subgraph* g, float least, float most, std::uint32_t in,
+                       std::uint32_t out) {
+  return xnn_define_global_average_pooling_2d(g, least, most, in, out, 0);
+}
+#endif
 
 struct FreeSubgraph {
   void operator()(xnn_subgraph* subgraph) const { xnn_delete_subgraph(subgraph); }
@@ -118,7 +172,7 @@ xnn_status XnnpackEngine::define(const PoseGraph& graph, const GraphNode& n) {
           u(n.kernel_columns), u(n.stride_rows), u(n.stride_columns), 1, 1, 1, z(from[3]), n.least,
           n.most, in, id(n.weights), id(n.bias), out, 0);
     case GraphOp::kAdd:
-      return xnn_define_add2(g, n.least, n.most, in, id(n.inputs[1]), out, 0);
+      return define_add(g, n.least, n.most, in, id(n.inputs[1]), out);
     case GraphOp::kPad: {
       const std::vector<std::size_t> before(n.pad_before.begin(), n.pad_before.end());
       const std::vector<std::size_t> after(n.pad_after.begin(), n.pad_after.end());
@@ -135,15 +189,15 @@ xnn_status XnnpackEngine::define(const PoseGraph& graph, const GraphNode& n) {
       return xnn_define_static_reshape(g, dims.size(), dims.data(), in, out, 0);
     }
     case GraphOp::kLogistic:
-      return xnn_define_sigmoid(g, in, out, 0);
+      return define_sigmoid(g, in, out);
     case GraphOp::kDepthToSpace:
       return xnn_define_depth_to_space(g, in, out, u(n.block), 0);
     case GraphOp::kClamp:
-      return xnn_define_clamp(g, n.least, n.most, in, out, 0);
+      return define_clamp(g, n.least, n.most, in, out);
     case GraphOp::kPrelu:
-      return xnn_define_prelu(g, in, id(n.weights), out, 0);
+      return define_prelu(g, in, id(n.weights), out);
     case GraphOp::kMean:
-      return xnn_define_global_average_pooling_2d(g, n.least, n.most, in, out, 0);
+      return define_mean(g, n.least, n.most, in, out);
     case GraphOp::kFullyConnected:
       return xnn_define_fully_connected(g, n.least, n.most, in, id(n.weights), id(n.bias), out, 0);
     case GraphOp::kConcatenate:
@@ -181,9 +235,9 @@ Result<void> XnnpackEngine::build(const PoseGraph& graph) {
   }
   if (xnn_setup_runtime(runtime, external.size(), external.data()) != xnn_status_success)
     return refused("the memory of this network");
-  // Convolutions keep copies of their weights in an order of their own.
+  // The constants stay: convolutions have copies of their weights, but other operators, for example
+  // PReLU since 2024, read them in place.
   subgraph_.reset();
-  constants_ = {};
   return {};
 }
 

@@ -24,7 +24,7 @@ constexpr float kForeheadBack_rad = 0.152f;
 
 }  // namespace
 
-std::optional<FaceShape> shape_of(const FaceLandmarks& face) {
+std::optional<CapturedFaceShape> shape_of(const FaceLandmarks& face) {
   const auto& px = face.image_px;
   const Vector3f left = px[kOuterEye.left] - px[kOuterEye.right];
   const Vector3f up = px[kForehead] - px[kBelowNose];
@@ -36,7 +36,7 @@ std::optional<FaceShape> shape_of(const FaceLandmarks& face) {
   R.col(0) = left.normalized();
   R.col(2) = forward.normalized();
   R.col(1) = R.col(2).cross(R.col(0));
-  FaceShape shape;
+  CapturedFaceShape shape;
   shape.R_CHead =
       (Quaternionf(R) * Quaternionf(Eigen::AngleAxisf(kForeheadBack_rad, Vector3f::UnitX())))
           .normalized();

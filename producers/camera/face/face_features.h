@@ -39,11 +39,11 @@ enum FaceFeature : std::uint8_t {
 constexpr std::size_t kFaceFeatureCount = 28;
 using FaceFeatures = std::array<float, kFaceFeatureCount>;
 
-struct FaceShape {
+struct CapturedFaceShape {
   Eigen::Quaternionf R_CHead;
   FaceFeatures features{};
   float eyes_px = 0.0f;  // between the outer corners of the eyes: how finely the face is seen
 };
-std::optional<FaceShape> shape_of(const FaceLandmarks& face);
+std::optional<CapturedFaceShape> shape_of(const FaceLandmarks& face);
 
 }  // namespace dance

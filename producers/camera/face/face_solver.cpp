@@ -129,7 +129,7 @@ std::array<float, kExpressionCount> expressions_of(const FaceFeatures& is, const
 
 // True once the face at rest is known: the median of each feature, so that a blink or a word is
 // none of it.
-bool FaceSolver::learn_rest(const FaceShape& shape) {
+bool FaceSolver::learn_rest(const CapturedFaceShape& shape) {
   if (knows_rest()) return true;
   sample_[samples_++] = shape.features;
   if (!knows_rest()) return false;

@@ -41,7 +41,7 @@ class FaceSolver {
 
  private:
   static constexpr std::size_t kSamples = 60;
-  bool learn_rest(const FaceShape& shape);
+  bool learn_rest(const CapturedFaceShape& shape);
 
   double smooth_;
   std::array<FaceFeatures, kSamples> sample_{};

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 
+#include "formats/media/confined_decoders.h"
 #include "formats/media/media_module.h"
 #include "producers/camera/files/picture_file.h"
 
@@ -26,11 +27,8 @@ Result<std::unique_ptr<VideoReel>> VideoReel::open(const std::string& path) {
   if (!module)
     return fail(path + ": is no picture that can be read; if it is a video, " +
                 module.error().what);
-  if (!reel->rewind()) {
-    return fail(path +
-                ": is neither a video nor a picture that can be read; make it one with ffmpeg -i " +
-                path + " dance.mp4");
-  }
+  if (const auto opened = reel->reopen(); !opened)
+    return fail(path + ": is no picture that can be read; as a video: " + opened.error().what);
   const VideoFacts facts = reel->video_->facts();
   reel->hz_ = facts.hz > 0.0 && facts.hz <= kMostHz ? facts.hz : kUsualHz;
   reel->promised_ = facts.pictures;
@@ -71,16 +69,16 @@ bool VideoReel::read(cv::Mat& bgr) {
   return true;
 }
 
-bool VideoReel::rewind() {
+// Opens the file again, as some formats cannot be wound back exactly.
+Result<void> VideoReel::reopen() {
   index_ = -1;
   time_ = {};
-  // Reopened: not every format can be wound back exactly.
-  const auto module = media_module();
-  if (!module) return false;
-  auto video = (*module)->open_video(path_);
-  if (video) video_ = std::move(*video);
-  return video.has_value();
+  DANCE_TRY(const MediaModule* module, media_module());
+  DANCE_TRY(video_, open_confined([&] { return module->open_video(path_); }));
+  return {};
 }
+
+bool VideoReel::rewind() { return reopen().has_value(); }
 
 bool VideoReel::is_cut_off() const {
   return promised_ > 0.0 && static_cast<double>(index_ + 1) < kCutOff * promised_;

@@ -33,6 +33,7 @@ class VideoReel : public PictureReel {
 
  private:
   VideoReel() = default;
+  Result<void> reopen();
 
   std::unique_ptr<VideoDecoder> video_;
   std::string path_;

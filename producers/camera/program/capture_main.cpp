@@ -51,7 +51,7 @@ Result<void> run_capture(const CaptureOptions& options) {
 
 int main(int argc, char** argv) {
   using dance::EngineKind;
-  using dance::PoseModel;
+  using dance::PoseNetworkModel;
   dance::CaptureOptions options;
   dance::CommandLine line(
       "Dancers before a camera, or in a video: poses on POSE/capture/<guest>. The picture itself "
@@ -77,9 +77,11 @@ int main(int argc, char** argv) {
   line.add("--format", options.encoding, "how the camera packs them; chosen where it is not given")
       .one_of({"YUYV", "MJPG", "NV12", "GREY"});
   line.add_flag("--loop", options.loops, "a video begins again at its end");
-  line.add_choice<PoseModel>(
+  line.add_choice<PoseNetworkModel>(
       "--model", options.model,
-      {{"lite", PoseModel::kLite}, {"full", PoseModel::kFull}, {"heavy", PoseModel::kHeavy}},
+      {{"lite", PoseNetworkModel::kLite},
+       {"full", PoseNetworkModel::kFull},
+       {"heavy", PoseNetworkModel::kHeavy}},
       "size of the pose network; full where it is not given, lite is twice as fast");
   line.add_choice<EngineKind>("--engine", options.engine,
                               {{"auto", EngineKind::kFastest},

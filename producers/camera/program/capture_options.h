@@ -32,7 +32,7 @@ struct CaptureOptions {
   bool loops = false;  // a video begins again
 
   // pose network
-  PoseModel model = PoseModel::kFull;
+  PoseNetworkModel model = PoseNetworkModel::kFull;
   EngineKind engine = EngineKind::kFastest;
   std::string models_folder;
   std::string follow;  // "largest", or "x,y" as shares of the picture

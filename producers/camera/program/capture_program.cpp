@@ -90,7 +90,8 @@ Result<void> CaptureProgram::open_chain() {
     DANCE_TRY(others_, OtherCameras::open(options_, input_->camera()));
   }
   DANCE_TRY(bus_, Bus::open(options_.bus));
-  bus_sink_ = std::make_unique<PortCaptureSink>(*bus_);
+  port_ = std::make_unique<HousePublisher>(*bus_, bus_->url(), *poller_);
+  bus_sink_ = std::make_unique<PortCaptureSink>(*port_);
   CaptureSink* sink = bus_sink_.get();
   if (!options_.record_folder.empty()) {
     DANCE_TRY(recording_,

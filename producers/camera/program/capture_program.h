@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "core/bus/bus.h"
+#include "core/control/house_publisher.h"
 #include "core/net/poller.h"
 #include "producers/camera/program/capture_chain.h"
 #include "producers/camera/program/capture_input.h"
@@ -46,6 +47,7 @@ class CaptureProgram {
   std::unique_ptr<Poller> poller_;
   std::unique_ptr<CaptureInput> input_;
   std::unique_ptr<Bus> bus_;
+  std::unique_ptr<HousePublisher> port_;
   std::unique_ptr<PortCaptureSink> bus_sink_;
   std::unique_ptr<CaptureRecording> recording_;
   Extras extras_;

@@ -2,21 +2,10 @@
 
 #include <fmt/core.h>
 
-#include <chrono>
 #include <filesystem>
 #include <optional>
 
 namespace dance {
-namespace {
-
-std::int64_t wall_clock_us() {
-  return std::chrono::duration_cast<std::chrono::microseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
-
-}  // namespace
-
 Result<std::unique_ptr<CaptureRecording>> CaptureRecording::create(const std::string& folder,
                                                                    double hz, CaptureSink& behind) {
   std::error_code error;
@@ -47,7 +36,7 @@ template <class Message>
 void CaptureRecording::append(Signal signal, const GuestId& guest, const Message& message) {
   const std::size_t size = encode(message, event_.data);
   event_.size = static_cast<std::uint32_t>(size);
-  event_.time_us = wall_clock_us();
+  event_.time_us = clock_.wall_us(mono_now());
   event_.channel = Channel::of(signal, Where::kCapture, guest);
   events_.push(event_);
   ++given_;

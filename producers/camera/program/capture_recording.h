@@ -2,8 +2,8 @@
 // pictures, and poses.lcm, an LCM log of the poses and the proportions that were published. `dance
 // replay FOLDER/poses.lcm` dances it again.
 //
-// Units/frames: as pose_t and skeleton_t; the log's event times in microseconds of the wall clock,
-//               as LCM's.
+// Units/frames: as pose_t and skeleton_t; the log's event times in microseconds since 1970, as
+//               core/net/clock/recording_clock.h gives them.
 // Ownership:    owns its files; refers to the sink behind it, which must outlive it.
 // Threads:      as VideoWriter, and one that writes the log: the capture's never waits for a disk.
 //               What a slow disk cannot take is dropped, the oldest first, and summary() counts it
@@ -21,6 +21,7 @@
 #include "core/base/spsc_ring.h"
 #include "core/bus/channel.h"
 #include "core/bus/encode.h"
+#include "core/net/clock/recording_clock.h"
 #include "formats/log/log_file.h"
 #include "producers/camera/record/video_writer.h"
 #include "producers/capture_sink.h"
@@ -69,6 +70,7 @@ class CaptureRecording : public CaptureSink {
   std::unique_ptr<VideoWriter> video_;
   LogWriter log_;  // the thread's, while it runs
   CaptureSink& behind_;
+  RecordingClock clock_;
   RecordedMessage event_;  // the capture's side
   SpscRing<RecordedMessage, kWaiting> events_;
   std::uint64_t given_ = 0;  // the capture's side

@@ -25,6 +25,10 @@ constexpr double kSurprise = 3.0;
 // floor.
 constexpr double kFloorSd_m = 0.008, kHeldSd_m = 0.015, kBelowSd_m = 0.01;
 constexpr double kDamping = 1e-3;
+// Points closer to the camera's plane than this have no usable ray.
+constexpr double kNearest_m = 0.2;
+// A posture in which less of the seen weight is in front of the cameras is refused.
+constexpr double kLeastInFront = 0.5;
 // No joint turns further in one iteration.
 constexpr double kMostStep = 0.7;
 
@@ -70,7 +74,9 @@ void BodyFit::add_rays(const Eye& eye, bool trusting) {
     Vector3d p_W = model_.point(i);
     if (eye.moved_W_m) p_W -= (*eye.moved_W_m)[i];
     const Vector3d p = eye.R_VW * (p_W - eye.p_WV_m);
-    if (p.z() < 0.2) continue;
+    weight_seen_ += seen.weight[i];
+    if (p.z() < kNearest_m) continue;
+    weight_in_front_ += seen.weight[i];
     const Vector2d residual(p.x() / p.z() - seen.ray[i].x(), p.y() / p.z() - seen.ray[i].y());
     double weight = eye.trust * seen.weight[i] / eye.variance;
     if (!trusting) weight /= 1.0 + residual.squaredNorm() / (kOutlier * kOutlier * eye.variance);
@@ -189,7 +195,7 @@ void BodyFit::build(const FitProblem& problem, bool trusting, const BodyState& s
   model_.differentiate();
   normal_.setZero();
   gradient_.setZero();
-  cost_ = 0.0;
+  cost_ = weight_in_front_ = weight_seen_ = 0.0;
   add_eyes(problem, trusting);
   picture_cost_ = cost_;
   add_expectation(problem, state);
@@ -230,7 +236,8 @@ bool BodyFit::solve(const FitProblem& problem, int rounds, int trusting, BodySta
     move(better, step);
   }
   build(problem, false, better);
-  if (!std::isfinite(cost_)) return false;
+  // Points behind the camera cost nothing: without this, a body behind it would fit every picture.
+  if (!std::isfinite(cost_) || weight_in_front_ < kLeastInFront * weight_seen_) return false;
   state = better;
   return true;
 }

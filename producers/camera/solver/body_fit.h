@@ -4,7 +4,8 @@
 // Units/frames: rays in C, body in W; the floor is y = 0.
 // Ownership:    keeps its numbers (about 80 KB); never allocates.
 // Threads:      none inside; one owner.
-// Failure:      solve() is false where the numbers are not finite; the state is then as it was.
+// Failure:      solve() is false when numbers are not finite, or when most of the seen points would
+//               be behind the camera; the state is then as it was.
 // Source:       Nocedal and Wright, Numerical Optimization, 2006, chapter 10. Each term of the sum
 //               is a squared difference over its variance: rays of landmarks (with Cauchy's weight,
 //               against outliers), directions of body vectors from the network, the expectation, a
@@ -97,6 +98,8 @@ class BodyFit {
   DofVector gradient_;
   double cost_ = 0.0;
   double picture_cost_ = 0.0;
+  // Weights of seen points in front of their cameras, and of all seen points.
+  double weight_in_front_ = 0.0, weight_seen_ = 0.0;
 };
 
 }  // namespace dance

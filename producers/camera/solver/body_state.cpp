@@ -17,6 +17,16 @@ Quaterniond about(const Vector3d& axis, double angle_rad) {
   return Quaterniond(Eigen::AngleAxisd(angle_rad, axis));
 }
 
+void add_within(double step, double most, double& angle) {
+  angle = std::clamp(angle + step, -most, most);
+}
+
+void add_within(const Vector3d& step, double most, Vector3d& rotation_vector) {
+  rotation_vector += step;
+  const double angle = rotation_vector.norm();
+  if (angle > most) rotation_vector *= most / angle;
+}
+
 }  // namespace
 
 Quaterniond turn_of(const Vector3d& v) {
@@ -35,18 +45,18 @@ Vector3d vector_of(const Quaterniond& q) {
 void move(BodyState& state, const DofVector& step) {
   state.p_WH_m += step.segment<3>(dof::kPlace);
   state.R_WH = (state.R_WH * turn_of(step.segment<3>(dof::kHips))).normalized();
-  state.spine += step.segment<3>(dof::kSpine);
-  state.head += step.segment<3>(dof::kHead);
+  add_within(step.segment<3>(dof::kSpine), kMostSpine_rad, state.spine);
+  add_within(step.segment<3>(dof::kHead), kMostHead_rad, state.head);
   for (int s = 0; s < 2; ++s) {
     BodyState::Side& side = state.sides[static_cast<std::size_t>(s)];
     const auto d = step.segment<dof::kOfSide>(dof::side(s));
-    side.shoulder_up += d[dof::kShoulder];
-    side.shoulder_forward += d[dof::kShoulder + 1];
+    add_within(d[dof::kShoulder], kMostShoulder_rad, side.shoulder_up);
+    add_within(d[dof::kShoulder + 1], kMostShoulder_rad, side.shoulder_forward);
     side.upper_arm = (side.upper_arm * turn_of(d.template segment<3>(dof::kUpperArm))).normalized();
     side.elbow = std::clamp(side.elbow + d[dof::kElbow], 0.0, kMostElbow_rad);
-    side.turn += d[dof::kTurn];
-    side.hand_up += d[dof::kHand];
-    side.hand_forward += d[dof::kHand + 1];
+    add_within(d[dof::kTurn], kMostTurn_rad, side.turn);
+    add_within(d[dof::kHand], kMostHand_rad, side.hand_up);
+    add_within(d[dof::kHand + 1], kMostHand_rad, side.hand_forward);
     side.upper_leg = (side.upper_leg * turn_of(d.template segment<3>(dof::kUpperLeg))).normalized();
     side.knee = std::clamp(side.knee + d[dof::kKnee], 0.0, kMostKnee_rad);
     side.foot = (side.foot * turn_of(d.template segment<3>(dof::kFoot))).normalized();

@@ -62,11 +62,19 @@ struct BodyState {
 // How far elbows and knees bend.
 constexpr double kMostElbow_rad = 2.7;
 constexpr double kMostKnee_rad = 2.7;
+// Bounds beyond what bodies do. Without them a fit to wrong points winds a back, a neck or a
+// forearm up by whole turns, which no later picture unwinds. Back and neck: length of the rotation
+// vector.
+constexpr double kMostSpine_rad = 2.2;
+constexpr double kMostHead_rad = 2.2;
+constexpr double kMostShoulder_rad = 1.5;
+constexpr double kMostTurn_rad = 3.2;
+constexpr double kMostHand_rad = 2.2;
 
 Eigen::Quaterniond turn_of(const Eigen::Vector3d& rotation_vector);
 Eigen::Vector3d vector_of(const Eigen::Quaterniond& q);
 
-// The state moved by `step`; knees and elbows stop where they end.
+// The state moved by `step`; joints stop at the bounds above.
 void move(BodyState& state, const DofVector& step);
 // The step that leads from `from` to `to`.
 DofVector step_between(const BodyState& from, const BodyState& to);

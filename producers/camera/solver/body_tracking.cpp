@@ -218,7 +218,7 @@ bool BodyTracking::follow(const Observation& seen, MonoTime now, double seconds,
     if (is_plausible && refit(refitted) &&
         (!is_fitted || std::exchange(is_turned_, false) ||
          fit_.picture_cost() < kClearlyBetter * cost)) {
-      keep_depth(now, refitted);
+      if (is_fitted) keep_depth(now, refitted);
       // The contacts of a wrong posture are wrong, and so may be the floor found from them.
       contacts_.clear();
       if (usual_cost_ > kLeastDear && sets_scale()) placement_.discard_feet();

@@ -213,9 +213,8 @@ Result<CalibrationReport> solve_chessboard(const BoardCorners& corners) try {
   }
   judge(corners, report);
   return report;
-} catch (const cv::Exception& trouble) {
-  return fail(std::string("the views of the chessboard make no camera (") + trouble.err +
-              "): show the board from more sides");
+} catch (const cv::Exception&) {
+  return fail("the views of the chessboard make no camera: show the board from more sides");
 }
 
 }  // namespace dance

@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "core/base/text/plain_text.h"
 #include "producers/camera/v4l2/v4l2_device.h"
 
 namespace dance {
@@ -73,10 +74,10 @@ std::string camera_table(std::span<const CameraEntry> cameras) {
   std::string table;
   for (const CameraEntry& camera : cameras) {
     if (!camera.trouble.empty()) {
-      table += camera.trouble + "\n";
+      table += plain_text(camera.trouble) + "\n";
       continue;
     }
-    table += camera.path + "  " + camera.name + "  (" + camera.bus_info + ")\n";
+    table += plain_text(camera.path + "  " + camera.name + "  (" + camera.bus_info + ")") + "\n";
     // One line a size, in the order in which the camera lists its encodings.
     std::vector<std::string> order;
     std::map<std::string, std::set<double>> rates;
@@ -117,7 +118,7 @@ std::string camera_json(std::span<const CameraEntry> cameras) {
     std::string trouble = camera.trouble;
     if (trouble.empty() && !chosen) trouble = camera.name + ": " + chosen.error().what;
     list.push_back({{"device", camera.path},
-                    {"name", camera.name},
+                    {"name", plain_text(camera.name)},
                     {"socket", camera.bus_info},
                     {"mode", chosen ? text_of(*chosen) : ""},
                     {"trouble", trouble}});

@@ -9,6 +9,18 @@ namespace dance {
 namespace {
 
 constexpr std::string_view kVolumeWord = "volume";
+constexpr std::string_view kStyleWord = "style ";
+
+struct CommandWord {
+  MusicCommand::What what;
+  std::string_view word;
+};
+constexpr CommandWord kWords[] = {
+    {MusicCommand::What::kNext, "next"},     {MusicCommand::What::kPlay, "play"},
+    {MusicCommand::What::kPause, "pause"},   {MusicCommand::What::kSlower, "slower"},
+    {MusicCommand::What::kFaster, "faster"}, {MusicCommand::What::kLock, "lock"},
+    {MusicCommand::What::kUnlock, "unlock"},
+};
 
 std::string music_path(const std::string& bus) {
   return control_path("music", bus_url_or_default(bus), GuestId());
@@ -16,19 +28,40 @@ std::string music_path(const std::string& bus) {
 
 }  // namespace
 
-std::optional<double> parse_music_volume(std::string_view command) {
-  return share_after(kVolumeWord, command);
+std::optional<MusicCommand> parse_music_command(std::string_view line) {
+  MusicCommand command;
+  if (const auto volume = share_after(kVolumeWord, line)) {
+    command.volume = *volume;
+    return command;
+  }
+  if (line.starts_with(kStyleWord)) {
+    command.what = MusicCommand::What::kStyle;
+    if (command.style.assign(line.substr(kStyleWord.size()))) return command;
+  }
+  for (const CommandWord& known : kWords)
+    if (known.word == line) return MusicCommand{known.what};
+  return std::nullopt;
 }
 
-Result<std::unique_ptr<MusicControl>> MusicControl::open(const std::string& bus, OnVolume on_volume,
-                                                         Poller& poller) {
+std::string text_of(const MusicCommand& command) {
+  if (command.what == MusicCommand::What::kVolume)
+    return std::string(kVolumeWord) + " " + plain_number(command.volume);
+  if (command.what == MusicCommand::What::kStyle)
+    return std::string(kStyleWord) + std::string(command.style.view());
+  for (const CommandWord& known : kWords)
+    if (known.what == command.what) return std::string(known.word);
+  return "";
+}
+
+Result<std::unique_ptr<MusicControl>> MusicControl::open(const std::string& bus,
+                                                         OnCommand on_command, Poller& poller) {
   auto control = ProgramControl::open(
       numbered_control_path(music_path(bus), static_cast<std::uint64_t>(getpid())),
-      [on_volume = std::move(on_volume)](std::string_view command, MonoTime) {
-        if (const auto volume = parse_music_volume(command)) on_volume(*volume);
+      [on_command = std::move(on_command)](std::string_view line, MonoTime) {
+        if (const auto command = parse_music_command(line)) on_command(*command);
       },
       poller);
-  if (!control) return fail("the music cannot be told how loud to be: " + control.error().what);
+  if (!control) return fail("the music cannot be controlled: " + control.error().what);
   return std::unique_ptr<MusicControl>(new MusicControl(std::move(*control)));
 }
 
@@ -36,10 +69,9 @@ bool is_music_played(const std::string& bus) {
   return !numbered_control_paths(music_path(bus)).empty();
 }
 
-Result<void> tell_music_volume(const std::string& bus, double volume) {
-  DANCE_TRY(const ToldAll told,
-            tell_programs(music_path(bus), std::string(kVolumeWord) + " " + plain_number(volume)));
-  if (told.deaf > 0) return fail("a dance music on this bus does not listen; end it");
+Result<void> send_music_command(const std::string& bus, const MusicCommand& command) {
+  DANCE_TRY(const ToldAll told, tell_programs(music_path(bus), text_of(command)));
+  if (told.deaf > 0) return fail("a dance music on this bus is unresponsive; end it");
   if (told.sent == 0)
     return fail(
         "no music is played on this bus: a house with [music] plays it, or dance music FILE");

@@ -1,11 +1,11 @@
-// How a running `dance music` is told from another terminal or a viewer how loud to play. Where two
-// play on one bus, both are told.
+// The control channel of a running `dance music`: another terminal or a viewer sets its volume, and
+// chooses what the house band plays. Where two play on one bus, both receive each command.
 //
 // Units/frames: volumes are factors, 0 = silent, 1 = as in the file.
 // Ownership:    MusicControl owns its socket file; the poller must outlive it.
 // Threads:      the poller's; the functions are for any.
-// Failure:      what is no command changes nothing; open() and tell_music_volume() say why nothing
-//               can be told.
+// Failure:      a line that is no command changes nothing; open() and send_music_command() name why
+//               no command can be received or sent.
 #pragma once
 
 #include <memory>
@@ -13,15 +13,34 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/fixed_string.h"
 #include "core/net/program_control.h"
 
 namespace dance {
 
+// All but the volume are for the house band.
+struct MusicCommand {
+  enum class What : std::uint8_t {
+    kVolume,
+    kNext,
+    kPlay,
+    kPause,
+    kSlower,
+    kFaster,
+    kLock,
+    kUnlock,
+    kStyle
+  };
+  What what = What::kVolume;
+  double volume = 1.0;
+  FixedString<15> style{};
+};
+
 class MusicControl {
  public:
-  using OnVolume = std::function<void(double volume)>;
+  using OnCommand = std::function<void(const MusicCommand& command)>;
   // `bus` as the program was given it.
-  static Result<std::unique_ptr<MusicControl>> open(const std::string& bus, OnVolume on_volume,
+  static Result<std::unique_ptr<MusicControl>> open(const std::string& bus, OnCommand on_command,
                                                     Poller& poller);
 
  private:
@@ -29,10 +48,11 @@ class MusicControl {
   std::unique_ptr<ProgramControl> control_;
 };
 
-// "volume 0.4"; nothing where it is no such line.
-std::optional<double> parse_music_volume(std::string_view command);
-// Whether a program of this user plays music on this bus.
+// "volume 0.4", "next", "style bachata"; nothing for another line.
+std::optional<MusicCommand> parse_music_command(std::string_view line);
+std::string text_of(const MusicCommand& command);
+// A program of this user plays music on this bus.
 bool is_music_played(const std::string& bus);
-Result<void> tell_music_volume(const std::string& bus, double volume);
+Result<void> send_music_command(const std::string& bus, const MusicCommand& command);
 
 }  // namespace dance

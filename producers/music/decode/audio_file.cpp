@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "formats/media/confined_decoders.h"
 #include "formats/media/media_module.h"
 #include "producers/music/decode/sndfile_decoder.h"
 
@@ -23,7 +24,7 @@ Result<std::unique_ptr<AudioDecoder>> open_with_module(const std::string& path) 
   if (!module)
     return fail("libsndfile cannot read it. " + module.error().what + "; or convert it to " +
                 other_audio_format(path));
-  return (*module)->open_sound(path);
+  return open_confined([&] { return (*module)->open_sound(path); });
 }
 
 }  // namespace
@@ -37,8 +38,13 @@ Result<AudioFile> AudioFile::open(const std::string& path) {
     return fail(path + ": " + (errno == ENOENT ? "no such file" : std::strerror(errno)));
   // A pipe would be waited for.
   if (!S_ISREG(status.st_mode)) return fail(path + ": no regular file; name a file of music");
-  auto decoder = open_with_sndfile(path);
-  if (!decoder) decoder = open_with_module(path);
+  auto decoder = open_confined([&] { return open_with_sndfile(path); });
+  const bool is_empty = decoder && (*decoder)->format().length_frames < 1;
+  if (!decoder || is_empty) {
+    // An empty one stays so where the module cannot read it either.
+    auto other = open_with_module(path);
+    if (other || !decoder) decoder = std::move(other);
+  }
   if (!decoder) return fail(path + ": " + decoder.error().what);
   AudioFile audio(path, std::move(*decoder));
   const AudioFormat& format = audio.format_;

@@ -3,7 +3,8 @@
 // Units/frames: as AudioDecoder.
 // Ownership:    as AudioDecoder.
 // Threads:      none inside; one owner.
-// Failure:      libsndfile's own reason; AudioFile names file and cure.
+// Failure:      libsndfile's own reason; AudioFile names file and cure. A file of unknown length is
+//               decoded once to count its frames; one without seeking is read from its beginning.
 #pragma once
 
 #include <memory>

@@ -11,7 +11,8 @@ constexpr const char* kNoSound =
 
 }  // namespace
 
-Result<std::unique_ptr<PulsePlayer>> PulsePlayer::open(AudioFile, const PulsePlayerOptions&) {
+Result<std::unique_ptr<PulsePlayer>> PulsePlayer::open(std::unique_ptr<MusicSource>,
+                                                       const PulsePlayerOptions&) {
   return fail(kNoSound);
 }
 

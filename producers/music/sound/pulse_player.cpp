@@ -15,15 +15,15 @@ constexpr Duration kCorrections = Duration::s(1);
 
 }  // namespace
 
-Result<std::unique_ptr<PulsePlayer>> PulsePlayer::open(AudioFile file,
+Result<std::unique_ptr<PulsePlayer>> PulsePlayer::open(std::unique_ptr<MusicSource> source,
                                                        const PulsePlayerOptions& options) {
-  std::unique_ptr<PulsePlayer> player(new PulsePlayer(std::move(file), options));
+  std::unique_ptr<PulsePlayer> player(new PulsePlayer(std::move(source), options));
   auto server = PulseServer::connect("music");
   if (!server) return fail(server.error().what + "; --silent plays without");
   player->server_ = std::move(*server);
   PulsePlayer* self = player.get();
   PulseOutputOptions stream;
-  stream.rate_hz = player->file_.rate_hz();
+  stream.rate_hz = player->source_->rate_hz();
   auto output = PulseOutput::open(*player->server_, stream, [self](MonoTime at, double frame) {
     self->clock_.report(at + self->options_.trim, frame);
   });
@@ -32,13 +32,13 @@ Result<std::unique_ptr<PulsePlayer>> PulsePlayer::open(AudioFile file,
   return player;
 }
 
-PulsePlayer::PulsePlayer(AudioFile file, const PulsePlayerOptions& options)
-    : file_(std::move(file)),
+PulsePlayer::PulsePlayer(std::unique_ptr<MusicSource> source, const PulsePlayerOptions& options)
+    : source_(std::move(source)),
       options_(options),
-      clock_(file_.rate_hz()),
-      plan_(file_.rate_hz()),
+      clock_(source_->rate_hz()),
+      plan_(source_->rate_hz()),
       block_(2 * kBlock_frames),
-      gain_(options.volume, file_.rate_hz()) {}
+      gain_(options.volume, source_->rate_hz()) {}
 
 std::optional<double> PulsePlayer::heard_s(MonoTime t) const {
   if (!begin_ || !clock_.is_known()) return std::nullopt;
@@ -54,6 +54,7 @@ Result<void> PulsePlayer::work(MonoTime now) {
     next_timing_request_ = now + kTimingRequests;
   }
   if (begin_ && clock_.is_known()) keep_in_step(now);
+  if (begin_ && plan_.is_aligned()) source_->prepare(plan_.song_frame(output_->written_frames()));
   return fill();
 }
 
@@ -76,41 +77,17 @@ Result<void> PulsePlayer::fill() {
   while (wanted > 0) {
     const std::size_t frames = std::min(wanted, kBlock_frames);
     const std::span<float> stereo(block_.data(), 2 * frames);
-    std::fill(stereo.begin(), stereo.end(), 0.0f);
-    if (begin_ && plan_.is_aligned())
-      if (auto read = read_song(plan_.song_frame(output_->written_frames()), stereo); !read)
-        return read;
+    if (begin_ && plan_.is_aligned()) {
+      const std::int64_t frame = plan_.song_frame(output_->written_frames());
+      if (auto read = source_->read(frame, stereo); !read) return read;
+      gain_.apply(stereo);
+    } else {
+      std::fill(stereo.begin(), stereo.end(), 0.0f);
+    }
     const std::int64_t before = output_->written_frames();
     output_->write(stereo);
     if (output_->written_frames() == before) break;  // refused: tried again in the next turn
     wanted -= frames;
-  }
-  return {};
-}
-
-// Silence before the song and after it.
-Result<void> PulsePlayer::read_song(std::int64_t song_frame, std::span<float> stereo) {
-  const std::int64_t length = file_.length_frames();
-  auto frames = static_cast<std::int64_t>(stereo.size() / 2);
-  if (song_frame < 0) {
-    const std::int64_t silent = std::min(-song_frame, frames);
-    stereo = stereo.subspan(static_cast<std::size_t>(2 * silent));
-    song_frame += silent;
-  }
-  while (!stereo.empty()) {
-    if (song_frame >= length && !loops_) return {};
-    const std::int64_t file_frame = song_frame % length;
-    if (file_.at_frame() != file_frame)
-      if (auto found = file_.seek(file_frame); !found) return found;
-    frames =
-        std::min<std::int64_t>(static_cast<std::int64_t>(stereo.size() / 2), length - file_frame);
-    const auto part = stereo.first(static_cast<std::size_t>(2 * frames));
-    DANCE_TRY(const std::size_t read, file_.read_stereo(part));
-    gain_.apply(part);
-    // A file that holds less than it says: the rest is silence.
-    if (read == 0) return {};
-    song_frame += frames;
-    stereo = stereo.subspan(part.size());
   }
   return {};
 }

@@ -1,10 +1,10 @@
-// PulsePlayer: plays a file through the sound server, heard when it should be: latency counted in,
+// PulsePlayer: plays music through the sound server, heard when it should be: latency counted in,
 // drift corrected.
 //
 // Units/frames: `trim` is latency that the server does not know of (an amplifier, a television).
-// Ownership:    owns the file and its connection with the server.
+// Ownership:    owns the source and its connection with the server.
 // Threads:      none inside.
-// Failure:      open() names what is missing; work() fails where the file is damaged or the
+// Failure:      open() names what is missing; work() fails where the music is damaged or the
 //               connection is lost.
 #pragma once
 
@@ -13,8 +13,8 @@
 
 #include "core/base/histogram.h"
 #include "core/sound/pulse_output.h"
-#include "producers/music/decode/audio_file.h"
 #include "producers/music/music_player.h"
+#include "producers/music/music_source.h"
 #include "producers/music/sound/play_plan.h"
 #include "producers/music/sound/volume_ramp.h"
 
@@ -27,12 +27,15 @@ struct PulsePlayerOptions {
 
 class PulsePlayer : public MusicPlayer {
  public:
-  static Result<std::unique_ptr<PulsePlayer>> open(AudioFile file,
+  static Result<std::unique_ptr<PulsePlayer>> open(std::unique_ptr<MusicSource> source,
                                                    const PulsePlayerOptions& options);
 
   void play_from(MonoTime begin, bool loops) override {
+    // Another place in the music is reached at once, not at the next correction.
+    if (!begin_ || PlayPlan::wants_jump((begin - *begin_).as_seconds()))
+      next_correction_ = MonoTime();
     begin_ = begin;
-    loops_ = loops;
+    source_->set_loops(loops);
   }
   void pause() override { begin_.reset(); }
   // Within some milliseconds, without a click.
@@ -42,19 +45,17 @@ class PulsePlayer : public MusicPlayer {
   std::string summary() const override;
 
  private:
-  PulsePlayer(AudioFile file, const PulsePlayerOptions& options);
+  PulsePlayer(std::unique_ptr<MusicSource> source, const PulsePlayerOptions& options);
   void keep_in_step(MonoTime now);
   Result<void> fill();
-  Result<void> read_song(std::int64_t song_frame, std::span<float> stereo);
 
-  AudioFile file_;
+  std::unique_ptr<MusicSource> source_;
   PulsePlayerOptions options_;
   std::unique_ptr<PulseServer> server_;
   StreamClock clock_;
   PlayPlan plan_;
   std::unique_ptr<PulseOutput> output_;  // last: its reports go to what stands above
   std::optional<MonoTime> begin_;
-  bool loops_ = false;
   MonoTime next_timing_request_;
   MonoTime next_correction_;
   std::vector<float> block_;

@@ -15,7 +15,7 @@ constexpr float kElbowBends_m = 0.02f, kKneeBends_m = 0.03f;
 
 }  // namespace
 
-Place BodyFit::follow(const Step& step, TrackedPoint point, const Place& guessed) {
+Place TrackerBodyFit::follow(const Step& step, TrackedPoint point, const Place& guessed) {
   const Place* measured = step.bones.has(point) ? &step.bones.of(point) : nullptr;
   // Head and hands are shown where they are measured.
   const bool is_worn = index_of(point) > index_of(TrackedPoint::kRightHand);
@@ -23,7 +23,7 @@ Place BodyFit::follow(const Step& step, TrackedPoint point, const Place& guessed
   return fades_[index_of(point)].follow(measured, guessed, step.seconds, jumps);
 }
 
-void BodyFit::fit_trunk(Step& step) {
+void TrackerBodyFit::fit_trunk(Step& step) {
   BodyFrames& frames = step.frames;
   const Place hips =
       follow(step, TrackedPoint::kHips, {step.guess.p_WH_m, step.guess.R(Bone::kHips)});
@@ -41,7 +41,7 @@ void BodyFit::fit_trunk(Step& step) {
     frames.R_WB[index_of(bone)] = (turn * step.guess.R(bone)).normalized();
 }
 
-void BodyFit::fit_arm(Step& step, bool left) {
+void TrackerBodyFit::fit_arm(Step& step, bool left) {
   const Limb& arm = left ? kLeftArm : kRightArm;
   const std::size_t shoulder = index_of(left ? Bone::kLeftShoulder : Bone::kRightShoulder);
   const std::size_t upper = index_of(arm.upper), lower = index_of(arm.lower),
@@ -69,7 +69,7 @@ void BodyFit::fit_arm(Step& step, bool left) {
   frames.R_WB[end] = hand.R_W;
 }
 
-Place BodyFit::foot_goal(Step& step, std::size_t side, const Vector3f& hip) {
+Place TrackerBodyFit::foot_goal(Step& step, std::size_t side, const Vector3f& hip) {
   const bool left = side == 0;
   const Limb& leg = left ? kLeftLeg : kRightLeg;
   const Skeleton& skeleton = step.skeleton;
@@ -92,7 +92,7 @@ Place BodyFit::foot_goal(Step& step, std::size_t side, const Vector3f& hip) {
   return foot;
 }
 
-void BodyFit::fit_leg(Step& step, std::size_t side) {
+void TrackerBodyFit::fit_leg(Step& step, std::size_t side) {
   const bool left = side == 0;
   const Limb& leg = left ? kLeftLeg : kRightLeg;
   const std::size_t upper = index_of(leg.upper), lower = index_of(leg.lower),
@@ -112,8 +112,8 @@ void BodyFit::fit_leg(Step& step, std::size_t side) {
   frames.R_WB[toes] = toes_on_floor(skeleton, left, {frames.p_WB_m[end], foot.R_W});
 }
 
-void BodyFit::fit(const Skeleton& skeleton, const BodyGuess& guess, const BonePlaces& bones,
-                  bool mounts_changed, float seconds, Pose& pose) {
+void TrackerBodyFit::fit(const Skeleton& skeleton, const BodyGuess& guess, const BonePlaces& bones,
+                         bool mounts_changed, float seconds, Pose& pose) {
   Step step{skeleton, guess, bones, seconds, bones.presence != presence_, mounts_changed, {}};
   presence_ = bones.presence;
   step.frames.R_WB = guess.R_WB;

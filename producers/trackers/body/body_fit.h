@@ -1,6 +1,6 @@
-// BodyFit: a whole body that is where it was measured, and elsewhere as a guide has guessed: the
-// spine bends until the head is in its place, arms and legs reach hands and feet, feet that stand
-// stay, and no foot goes below the floor. Points that are lost fade to the guess, and back.
+// TrackerBodyFit: a whole body that is where it was measured, and elsewhere as a guide has guessed:
+// the spine bends until the head is in its place, arms and legs reach hands and feet, feet that
+// stand stay, and no foot goes below the floor. Points that are lost fade to the guess, and back.
 //
 // Units/frames: W, metres, the floor at 0.
 // Ownership:    plain value; never allocates.
@@ -16,9 +16,9 @@
 
 namespace dance {
 
-class BodyFit {
+class TrackerBodyFit {
  public:
-  void reset() { *this = BodyFit(); }
+  void reset() { *this = TrackerBodyFit(); }
 
   // `mounts_changed`: worn points are on their bones elsewhere than in the call `seconds` ago.
   void fit(const Skeleton& skeleton, const BodyGuess& guess, const BonePlaces& bones,
