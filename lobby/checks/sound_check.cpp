@@ -9,8 +9,10 @@
 
 #include "core/base/fixed_string.h"
 #include "core/base/latest.h"
+#include "core/base/printable.h"
 #include "core/base/spsc_ring.h"
 #include "core/net/mono_clock.h"
+#include "core/sound/pulse_server.h"
 #include "lobby/checks/sound_thread.h"
 
 namespace dance {
@@ -121,6 +123,11 @@ class PulseSoundCheck : public SoundCheck {
 
 std::unique_ptr<SoundCheck> SoundCheck::start(const SoundChoice& choice) {
   return std::make_unique<PulseSoundCheck>(choice);
+}
+
+std::string sound_server_error() {
+  const auto server = PulseServer::connect("lobby");
+  return server ? "" : printable(server.error().what);
 }
 
 }  // namespace dance

@@ -70,4 +70,8 @@ class SoundCheck {
 // "Loudspeaker and microphone: 84 ms there and back", or that nothing came back.
 std::string say_round_trip(const Texts& texts, const RoundTrip& trip);
 
+// Why the sound server cannot be reached, in a printable line; "" if it can, or in a build without
+// sound. Waits up to three seconds for a server that hangs.
+std::string sound_server_error();
+
 }  // namespace dance

@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kExamples = R"(Examples:
   dance lobby                                   the window; `dance` alone opens it too
   dance lobby 'dance://dance.example.org/salsa?…'
-                                                opens an invitation, and joins
+                                                shows an invitation, and joins when you confirm
   dance join ~/.config/dancegraph/house.toml    what was chosen in it, without it
 )";
 
@@ -33,8 +33,7 @@ Result<void> run_lobby(const std::string& settings, const std::string& invitatio
   if (path.empty()) {
     DANCE_TRY(path, SettingsFile::usual_path());
   }
-  DANCE_TRY(auto lobby, LobbyRun::create(path));
-  if (!invitation.empty()) lobby->open(invitation);
+  DANCE_TRY(auto lobby, LobbyRun::create(path, invitation));
   return lobby->run();
 }
 
@@ -46,7 +45,9 @@ int main(int argc, char** argv) {
   dance::CommandLine line(
       "The window for dancers: how you are seen, with whom you dance, and a room of your own.",
       "dance lobby");
-  line.add("INVITATION", invitation, "dance://…, in quotes: opens it, and joins");
+  line.add(
+      "INVITATION", invitation,
+      "dance://…, in quotes: shows its room, server and your name, and joins when you confirm");
   line.add("--settings", settings,
            "the session file that it keeps (else house.toml in the folder dancegraph of the user's "
            "settings)");

@@ -31,6 +31,7 @@ class ChildWords {
   // Lines that were not taken yet, without time and name of the program.
   std::vector<std::string> take_lines();
   const std::deque<std::string>& lines() const { return lines_; }
+  std::string last_line() const { return lines_.empty() ? "" : lines_.back(); }
   const std::string& output() const { return output_; }
   ChildProcess& process() { return process_; }
 

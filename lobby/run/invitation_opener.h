@@ -27,8 +27,8 @@ class InvitationOpener {
   InvitationOpener(const InvitationOpener&) = delete;
   InvitationOpener& operator=(const InvitationOpener&) = delete;
 
-  // False while one is being opened.
-  bool begin(const Invitation& invitation);
+  // False while one is being opened. `trusts_new_key`: as OpenInvitation's.
+  bool begin(const Invitation& invitation, bool trusts_new_key);
   // "" = it is open; once.
   std::optional<std::string> take();
   const Invitation& invitation() const { return invitation_; }

@@ -14,6 +14,13 @@
 namespace dance {
 namespace {
 
+// Dear ImGui wrote it otherwise before 1.89.
+#if IMGUI_VERSION_NUM < 18900
+constexpr auto kKeypadEnter = ImGuiKey_KeyPadEnter;
+#else
+constexpr auto kKeypadEnter = ImGuiKey_KeypadEnter;
+#endif
+
 constexpr std::array kKeys{
     std::pair{ImGuiKey_Tab, GLFW_KEY_TAB},
     std::pair{ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
@@ -29,7 +36,7 @@ constexpr std::array kKeys{
     std::pair{ImGuiKey_Space, GLFW_KEY_SPACE},
     std::pair{ImGuiKey_Enter, GLFW_KEY_ENTER},
     std::pair{ImGuiKey_Escape, GLFW_KEY_ESCAPE},
-    std::pair{ImGuiKey_KeyPadEnter, GLFW_KEY_KP_ENTER},
+    std::pair{kKeypadEnter, GLFW_KEY_KP_ENTER},
     std::pair{ImGuiKey_A, GLFW_KEY_A},
     std::pair{ImGuiKey_C, GLFW_KEY_C},
     std::pair{ImGuiKey_V, GLFW_KEY_V},
@@ -67,13 +74,7 @@ void LobbyInput::begin(ViewWindow& window) {
   ImGuiIO& io = ImGui::GetIO();
   for (const auto& [name, key] : kKeys) io.KeyMap[name] = key;
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
-  io.ClipboardUserData = window.handle();
-  io.SetClipboardTextFn = [](void* user, const char* text) {
-    glfwSetClipboardString(static_cast<GLFWwindow*>(user), text);
-  };
-  io.GetClipboardTextFn = [](void* user) {
-    return glfwGetClipboardString(static_cast<GLFWwindow*>(user));
-  };
+  window.lend_clipboard();
   events_.clear();
   mouse_down_.fill(false);
   wheel_ = 0.0f;

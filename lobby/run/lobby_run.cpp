@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "core/net/mono_clock.h"
-#include "core/program/talk.h"
-#include "lobby/run/machine_facts.h"
+#include "core/program/program.h"
 #include "lobby/run/trouble_words.h"
 #include "viewer/gl/offscreen.h"
+#include "viewer/scene/place.h"
 
 namespace dance {
 namespace {
@@ -26,23 +26,25 @@ constexpr Duration kLongestGoingIn = Duration::s(20);
 constexpr Duration kHouseEnds = Duration::s(3);
 constexpr Duration kLookAtHouse = Duration::ms(100);
 
-LobbyBanner trouble(Text text, std::vector<std::string> values, std::string detail) {
-  return {LobbyBanner::Kind::kTrouble, text,         std::move(values),
-          std::move(detail),           Text::kCount, LobbyWish::kNone};
-}
+// Mouse and keys come first: dancers are drawn once the page has settled, or after this time.
+constexpr Duration kLongestStill = Duration::ms(400);
 
 }  // namespace
 
-Result<std::unique_ptr<LobbyRun>> LobbyRun::create(const std::string& settings_path) {
+Result<std::unique_ptr<LobbyRun>> LobbyRun::create(const std::string& settings_path,
+                                                   const std::string& invitation) {
   std::unique_ptr<LobbyRun> run(new LobbyRun(settings_path));
   // Before any thread begins: signals come to the main thread's poller.
   DANCE_TRY(run->poller_, Poller::create());
   if (auto stops = run->poller_->stop_on_signals(); !stops)
     return tl::make_unexpected(stops.error());
+  run->figures_ =
+      std::make_unique<LobbyFigures>(AvatarStore::of_user(), data_folder() + "/avatars");
   LobbyModel& model = run->model_;
   model.settings_path = with_tilde(settings_path);
   find_parts(model);
   find_addresses(model);
+  find_headset(model);
   LobbySettings first = first_settings();
   bool is_new = true;
   if (auto opened = run->file_.open()) {
@@ -54,15 +56,19 @@ Result<std::unique_ptr<LobbyRun>> LobbyRun::create(const std::string& settings_p
     run->note_saved(opened->trouble, opened->kept_as);
   } else {
     model.take(first);
-    model.tell(trouble(Text::kLobbyNotSaved, {}, opened.error().what));
+    model.tell(error_banner(Text::kLobbyNotSaved, {}, opened.error().what));
   }
   run->chooses_source_ = is_new;
-  if (is_new) model.screen = LobbyScreen::kYou;
-  run->seen_.look_for_cameras(model);
   if (auto window = run->open_window(); !window) return tl::make_unexpected(window.error());
   run->opener_ = std::make_unique<InvitationOpener>([] { glfwPostEmptyEvent(); });
   run->rooms_ = std::make_unique<KnownRooms>(settings_path, [] { glfwPostEmptyEvent(); });
   run->rooms_->ask(model);
+  if (!invitation.empty()) {
+    model.show(LobbyScreen::kDance);
+    model.invitation_typed = invitation;
+    run->open_invitation_typed();
+  }
+  if (!model.join_request) run->look_for_cameras_once();
   return run;
 }
 
@@ -70,7 +76,7 @@ LobbyRun::~LobbyRun() {
   stop_house();
   stage_.reset();
   seen_.stop(model_);
-  painter_.reset();
+  release_painters();
   window_.reset();  // before threads that may take some seconds yet
   rooms_.reset();
   opener_.reset();
@@ -86,8 +92,15 @@ Result<void> LobbyRun::make_painter() {
   DANCE_TRY(painter_, LobbyPainter::create(window_->scale()));
   input_.begin(*window_);
   window_->set_tear_free(true);
+  model_.shelf.has_graphics_card = !is_software_rendering();
   fresh_frames_ = kSettlingFrames;
   return {};
+}
+
+// Both own OpenGL objects, which must go before the context ends or shows a dance.
+void LobbyRun::release_painters() {
+  if (figures_) figures_->release(model_);
+  painter_.reset();
 }
 
 Result<void> LobbyRun::run() {
@@ -102,7 +115,10 @@ Result<void> LobbyRun::turn() { return stage_ ? turn_of_dance() : turn_of_lobby(
 Duration LobbyRun::patience(MonoTime now) const {
   if (fresh_frames_ > 0) return std::max(Duration(), kFastestFrame - (now - drawn_));
   const bool is_opening = model_.host.state == HostFacts::State::kOpening;
-  return model_.is_going_in || is_opening || seen_.is_busy() ? kBusy : kIdle;
+  const bool is_busy = model_.is_going_in || is_opening || seen_.is_busy() || shelf_.is_busy();
+  const Duration longest = is_busy ? kBusy : kIdle;
+  if (window_->framebuffer_size().width_px <= 0) return longest;  // minimised: no dancers either
+  return std::min(longest, figures_->patience(model_, now).value_or(kIdle));
 }
 
 Result<void> LobbyRun::turn_of_lobby() {
@@ -115,19 +131,32 @@ Result<void> LobbyRun::turn_of_lobby() {
     return {};
   }
   if (window_->is_context_lost()) {
-    painter_.reset();
+    release_painters();
     if (auto renewed = window_->renew(); !renewed) return renewed;
     return make_painter();
   }
   if (look_around(mono_now())) fresh_frames_ = std::max(fresh_frames_, 1);
   if (stage_) return {};  // it has begun
-  if (input_.take_news(*window_)) fresh_frames_ = kSettlingFrames;
+  const MonoTime now = mono_now();
+  if (input_.take_news(*window_)) {
+    fresh_frames_ = kSettlingFrames;
+    figures_->note_input(now);
+  }
+  draw_dancers(now);
   if (fresh_frames_ == 0 || mono_now() - drawn_ < kFastestFrame) return {};
   if (auto drawn = draw(); !drawn) return drawn;
   const bool waits = saved_ && loses_a_table(*saved_, model_.settings);
-  if (!painter_->is_typed_in() && !waits) save();
+  if (!painter_->is_typed_in() && !waits && !model_.join_request) save();
   obey(std::exchange(model_.wish, LobbyWish::kNone));
   return {};
+}
+
+void LobbyRun::draw_dancers(MonoTime now) {
+  if (fresh_frames_ > 0 && now - dancers_drawn_ < kLongestStill) return;
+  const ViewWindow::Size size = window_->framebuffer_size();
+  if (size.width_px <= 0 || !figures_->step(model_, window_->scale(), now)) return;
+  dancers_drawn_ = mono_now();
+  fresh_frames_ = std::max(fresh_frames_, 1);
 }
 
 Result<void> LobbyRun::draw() {
@@ -136,6 +165,7 @@ Result<void> LobbyRun::draw() {
     fresh_frames_ = 0;
     return {};
   }
+  window_->set_letter_scale(static_cast<float>(model_.settings.window.letters));
   painter_->set_scale(window_->scale());
   const bool has_more = input_.pass(*window_);
   const MonoTime now = mono_now();
@@ -160,6 +190,7 @@ bool LobbyRun::look_around(MonoTime now) {
     is_new = true;
   }
   is_new = look_at_invitation() || is_new;
+  is_new = shelf_.poll(model_) || is_new;
   is_new = rooms_->look(model_, now) || is_new;
   return look_at_house(now) || is_new;
 }
@@ -172,16 +203,19 @@ bool LobbyRun::look_at_house(MonoTime now) {
     if (says_it_is_in(line, is_alone)) {
       model_.is_going_in = false;
       model_.forget(Text::kLobbyServerSilent);  // another of its addresses has answered
+      keep_trial();
+      if (!is_alone) model_.remember_room();
       if (auto begun = begin_dance(); !begun) {
         stop_house();
-        model_.tell(trouble(Text::kLobbyDanceEnded, {}, begun.error().what));
+        model_.tell(error_banner(Text::kLobbyDanceEnded, {}, begun.error().what));
       }
       return true;
     }
-    const auto known = trouble_in(line, model_.settings);
+    const auto known = trouble_in(line, house_settings());
     if (!known) continue;
     model_.tell(known->banner);
     if (!known->is_fatal) continue;
+    if (known->banner.text == Text::kLobbyNameTaken && !trial_) model_.take_further_name();
     stop_house();
     return true;
   }
@@ -190,7 +224,7 @@ bool LobbyRun::look_at_house(MonoTime now) {
     return true;
   }
   if (now - going_since_ < kLongestGoingIn) return false;
-  model_.tell(trouble_of_beginning(house_->lines(), model_.settings));
+  model_.tell(start_error_of(house_->lines(), house_settings()));
   stop_house();
   return true;
 }
@@ -199,7 +233,7 @@ bool LobbyRun::look_at_house(MonoTime now) {
 bool LobbyRun::has_house_ended() {
   if (!house_->process().has_ended()) return false;
   house_->read();
-  model_.tell(trouble_of_end(house_->lines(), model_.settings));
+  model_.tell(end_error_of(house_->lines(), house_settings()));
   return true;
 }
 
@@ -207,6 +241,8 @@ void LobbyRun::stop_house() {
   model_.is_going_in = false;
   if (house_) house_->process().stop(kHouseEnds);
   house_.reset();
+  if (trial_) file_.remove_trial();
+  trial_.reset();
 }
 
 void LobbyRun::obey(LobbyWish wish) {
@@ -217,88 +253,57 @@ void LobbyRun::obey(LobbyWish wish) {
     case LobbyWish::kJoin:
     case LobbyWish::kAlone:
     case LobbyWish::kPractise:
+    case LobbyWish::kWatchRoom:
       return go_in(wish);
+    case LobbyWish::kWithoutVoice:
+      model_.settings.speaks = false;
+      return go_in(LobbyWish::kJoin);
     case LobbyWish::kCancel:
-      return stop_house();
+      return cancel();
+    case LobbyWish::kConfirmJoin:
+      return confirm_join();
     case LobbyWish::kOpenRoom:
       return host_.open(model_);
     case LobbyWish::kCloseRoom:
       return host_.close(model_);
+    case LobbyWish::kAskRouter:
+      return host_.ask_router(model_, mono_now());
     case LobbyWish::kInvite:
       return host_.invite(model_);
     case LobbyWish::kWithdraw:
       return host_.withdraw(model_);
     case LobbyWish::kListInvited:
       return host_.list(model_);
+    case LobbyWish::kCopyMessage:
+      return host_.copy_message(model_);
+    case LobbyWish::kSavePage:
+      return host_.save_page(model_);
+    case LobbyWish::kOpenPageFolder:
+      return host_.open_page_folder(model_);
     case LobbyWish::kAskRooms:
       return rooms_->ask(model_);
     case LobbyWish::kLookAgain:
       find_addresses(model_);
+      find_headset(model_);
       return seen_.look_for_cameras(model_);
     case LobbyWish::kOpenInvitation:
       return open_invitation_typed();
     case LobbyWish::kPlayCountIn:
       return seen_.play_count_in();
+    case LobbyWish::kListDances:
+    case LobbyWish::kWatch:
+    case LobbyWish::kMakeVideo:
+    case LobbyWish::kExportBvh:
+    case LobbyWish::kExportGlb:
+    case LobbyWish::kCancelExport:
+    case LobbyWish::kRename:
+    case LobbyWish::kDelete:
+    case LobbyWish::kOpenFolder:
+      return shelf_.apply(model_, wish);
     case LobbyWish::kQuit:
       is_over_ = true;
       return;
   }
-}
-
-void LobbyRun::open(const std::string& invitation) {
-  model_.show(LobbyScreen::kDance);
-  model_.invitation_typed = invitation;
-  model_.ask(LobbyWish::kOpenInvitation);
-}
-
-void LobbyRun::open_invitation_typed() {
-  model_.banners.clear();
-  const auto invitation = parse_invitation(model_.invitation_typed);
-  if (!invitation)
-    return model_.tell(trouble(Text::kLobbyInvitationBad, {}, invitation.error().what));
-  if (!opener_->begin(*invitation)) return;
-  model_.is_going_in = true;
-  going_since_ = mono_now();
-}
-
-// True where something has come of it.
-bool LobbyRun::look_at_invitation() {
-  const auto outcome = opener_->take();
-  if (!outcome || !model_.is_going_in || house_) return false;
-  model_.is_going_in = false;
-  if (!outcome->empty()) {
-    model_.tell(trouble(Text::kLobbyInvitationFailed, {}, *outcome));
-    return true;
-  }
-  const Invitation& invitation = opener_->invitation();
-  model_.invitation_typed.clear();
-  // The key is for that name.
-  model_.settings.name = model_.name_typed = std::string(invitation.guest.view());
-  const std::string room(invitation.room.is_set() ? invitation.room.view() : "dance");
-  model_.choose_room({room, invitation.server()});
-  go_in(LobbyWish::kJoin);
-  return true;
-}
-
-void LobbyRun::go_in(LobbyWish wish) {
-  model_.banners.clear();
-  if (auto wrong = model_.trouble_before(wish)) return model_.tell(std::move(*wrong));
-  if (wish == LobbyWish::kJoin) model_.remember_room();
-  save();
-  if (!(saved_ == only_what_counts(model_.settings))) return;  // it was told why not
-  std::vector<std::string> words{file_.path(), "--no-view"};
-  const WindowChoices& window = model_.settings.window;
-  if (wish != LobbyWish::kJoin) words.emplace_back("--alone");
-  if (wish == LobbyWish::kAlone) words.push_back("--partner=" + window.partner);
-  if (wish == LobbyWish::kPractise && !window.music.empty())
-    words.push_back("--music=" + window.music);
-  seen_.stop(model_);  // the house wants the camera
-  auto started = ChildWords::start("dance-join", std::move(words));
-  if (!started) return model_.tell(trouble(Text::kLobbyDanceEnded, {}, started.error().what));
-  house_ = std::move(*started);
-  house_for_ = wish;
-  going_since_ = mono_now();
-  model_.is_going_in = true;
 }
 
 // The window goes to the stage.
@@ -308,12 +313,14 @@ Result<void> LobbyRun::begin_dance() {
   view_.feed.bus_url = house.bus;
   view_.session = file_.path();
   view_.language = model_.texts.language();
-  view_.hud = false;  // figures are for engineers: H shows them
+  view_.place = parse_place(house.window.place);
+  view_.hosts_room = host_.is_running();
   const bool is_mirror = house_for_ == LobbyWish::kPractise && model_.settings.window.mirror;
   if (is_mirror) view_.view = ViewMode::kMirror;
   if (is_mirror) view_.focus = GuestId::parse(model_.settings.name);
   DANCE_TRY(source_, PictureSource::open(view_));
-  painter_.reset();
+  shelf_.note_dance_begins();
+  release_painters();
   auto stage = WindowRun::create(view_, *source_, std::move(window_));
   if (!stage) {
     source_.reset();
@@ -329,7 +336,7 @@ Result<void> LobbyRun::begin_dance() {
 
 Result<void> LobbyRun::turn_of_dance() {
   if (auto turned = stage_->turn(); !turned) {
-    model_.tell(trouble(Text::kLobbyDanceEnded, {}, turned.error().what));
+    model_.tell(error_banner(Text::kLobbyDanceEnded, {}, turned.error().what));
     return end_dance();
   }
   const MonoTime now = mono_now();
@@ -347,6 +354,8 @@ Result<void> LobbyRun::turn_of_dance() {
 
 Result<void> LobbyRun::end_dance() {
   const bool has_signal = source_->is_over();
+  // A place that was chosen by key during the dance stays for the next one.
+  model_.settings.window.place = name_of(stage_->state().place);
   window_ = WindowRun::close(std::move(stage_));
   stage_.reset();
   source_.reset();
@@ -354,12 +363,14 @@ Result<void> LobbyRun::end_dance() {
   is_over_ = has_signal || window_->is_over();
   if (is_over_) return {};
   window_->set_events(input_);
+  shelf_.note_dance_ends(model_);
   rooms_->ask(model_);
   return make_painter();
 }
 
 void LobbyRun::note_saved(const std::string& what, const std::string& kept_as) {
-  if (!what.empty()) model_.tell(trouble(Text::kLobbySettingsBroken, {with_tilde(kept_as)}, what));
+  if (!what.empty())
+    model_.tell(error_banner(Text::kLobbySettingsBroken, {with_tilde(kept_as)}, what));
 }
 
 void LobbyRun::save() {
@@ -367,8 +378,8 @@ void LobbyRun::save() {
     const ViewWindow::Size size = window_->framebuffer_size();
     const auto unscaled = [&](int pixels, int least) {
       return std::clamp(
-          static_cast<int>(std::lround(static_cast<float>(pixels) / window_->scale())), least,
-          WindowChoices::kMost_px);
+          static_cast<int>(std::lround(static_cast<float>(pixels) / window_->monitor_scale())),
+          least, WindowChoices::kMost_px);
     };
     if (size.width_px > 0) {
       WindowChoices& window = model_.settings.window;
@@ -379,7 +390,7 @@ void LobbyRun::save() {
   const LobbySettings counts = only_what_counts(model_.settings);
   if (counts == saved_) return;
   auto saved = file_.save(counts);
-  if (!saved) return model_.tell(trouble(Text::kLobbyNotSaved, {}, saved.error().what));
+  if (!saved) return model_.tell(error_banner(Text::kLobbyNotSaved, {}, saved.error().what));
   note_saved(saved->trouble, saved->kept_as);
   saved_ = counts;
 }

@@ -12,11 +12,14 @@
 #include <optional>
 
 #include "core/net/poller.h"
+#include "lobby/figures/lobby_figures.h"
 #include "lobby/run/child_words.h"
+#include "lobby/run/dance_shelf.h"
 #include "lobby/run/invitation_opener.h"
 #include "lobby/run/known_rooms.h"
 #include "lobby/run/lobby_input.h"
 #include "lobby/run/lobby_painter.h"
+#include "lobby/run/machine_facts.h"
 #include "lobby/run/room_host.h"
 #include "lobby/run/seen_and_heard.h"
 #include "lobby/settings/settings_file.h"
@@ -26,10 +29,10 @@ namespace dance {
 
 class LobbyRun {
  public:
-  // The file with what was chosen.
-  static Result<std::unique_ptr<LobbyRun>> create(const std::string& settings_path);
-  // dance://…, as if it had been pasted.
-  void open(const std::string& invitation);
+  // `settings_path` is the house file that the window keeps. `invitation` is a link from outside,
+  // dance://…, or "": it is shown as a question, and until that is answered no device is opened.
+  static Result<std::unique_ptr<LobbyRun>> create(const std::string& settings_path,
+                                                  const std::string& invitation = "");
   ~LobbyRun();
 
   // Until the window is closed or a signal comes.
@@ -50,12 +53,23 @@ class LobbyRun {
   Result<void> make_painter();
   Result<void> turn_of_lobby();
   Result<void> draw();
+  void draw_dancers(MonoTime now);
   bool look_around(MonoTime now);
+  void release_painters();
   bool look_at_house(MonoTime now);
   bool look_at_invitation();
   void open_invitation_typed();
+  bool has_joined(const Invitation& invitation) const;
+  void confirm_join();
+  void cancel();
+  void look_for_cameras_once();
   void obey(LobbyWish wish);
   void go_in(LobbyWish wish);
+  std::optional<LobbyBanner> find_start_error(LobbyWish wish);
+  std::optional<std::string> house_file();
+  void keep_trial();
+  // Those that the house was started with.
+  const LobbySettings& house_settings() const { return trial_ ? *trial_ : model_.settings; }
   bool has_house_ended();
   void stop_house();
   Result<void> begin_dance();
@@ -68,14 +82,21 @@ class LobbyRun {
   SettingsFile file_;
   std::optional<LobbySettings> saved_;  // not set: nothing stands in the file
   LobbyModel model_;
+  std::optional<Invitation> invitation_;  // that model_.join_request asks about
+  MonoTime asked_;                        // when the question appeared
+  // Settings of an invitation: saved as the model's when the server has admitted the house.
+  std::optional<LobbySettings> trial_;
   std::unique_ptr<Poller> poller_;  // for signals
   LobbyInput input_;
   std::unique_ptr<ViewWindow> window_;
   std::unique_ptr<LobbyPainter> painter_;
+  std::unique_ptr<LobbyFigures> figures_;  // from create() on
   std::unique_ptr<KnownRooms> rooms_;
   std::unique_ptr<InvitationOpener> opener_;
   RoomHost host_;
   SeenAndHeard seen_;
+  DanceShelf shelf_{recording_folders()};
+  bool has_looked_for_cameras_ = false;
   bool chooses_source_ = false;      // a new dancer's, once the cameras are known
   std::optional<ChildWords> house_;  // dance join
   LobbyWish house_for_ = LobbyWish::kNone;
@@ -86,7 +107,7 @@ class LobbyRun {
   std::unique_ptr<WindowRun> stage_;
   MonoTime house_looked_at_;
   int fresh_frames_ = 0;  // to draw: Dear ImGui settles in some
-  MonoTime drawn_;
+  MonoTime drawn_, dancers_drawn_;
   int pictures_ = 0;
   bool has_told_graphics_ = false;
   bool is_over_ = false;

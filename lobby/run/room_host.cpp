@@ -1,11 +1,17 @@
 #include "lobby/run/room_host.h"
 
+#include <imgui.h>
+
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <utility>
 
 #include "core/base/printable.h"
 #include "core/net/machine_addresses.h"
+#include "core/program/whole_file.h"
+#include "lobby/invite/invitation_page.h"
+#include "lobby/run/machine_facts.h"
 #include "tunnel/invitation/qr_code.h"
 
 namespace dance {
@@ -48,28 +54,31 @@ ServerGuests guests_of_status(const std::string& text) {
   return found;
 }
 
-std::vector<std::string> names_of_keys(const std::string& list) {
-  std::vector<std::string> names;
+// Each line has name, kind, room and state: "invited, until 2026-12-01 08:00 UTC".
+std::vector<InvitedGuest> invited_guests(const std::string& list) {
+  std::vector<InvitedGuest> guests;
   std::istringstream lines(list);
   std::string line;
   std::getline(lines, line);  // the heading
-  while (std::getline(lines, line) && names.size() < kMostShown) {
-    const std::string name = line.substr(0, line.find(' '));
-    if (GuestId::parse(name)) names.push_back(name);
+  while (std::getline(lines, line) && guests.size() < kMostShown) {
+    InvitedGuest guest;
+    guest.name = line.substr(0, line.find(' '));
+    if (!GuestId::parse(guest.name)) continue;
+    const auto has = [&](std::string_view words) { return line.find(words) != std::string::npos; };
+    if (has(" invited, until ")) guest.state = InvitedGuest::State::kInvited;
+    if (has(" expired ")) guest.state = InvitedGuest::State::kExpired;
+    constexpr std::string_view kUntil = "until ";
+    if (const std::size_t at = line.rfind(kUntil); at != std::string::npos)
+      guest.until = printable(line.substr(at + kUntil.size(), 24));
+    guests.push_back(std::move(guest));
   }
-  return names;
+  return guests;
 }
 
 void RoomHost::open(LobbyModel& model) {
-  auto started = ChildWords::start(
-      "dance-server", {"--bind", "0.0.0.0", "--port", std::to_string(model.host.port)});
-  if (!started)
-    return model.tell({LobbyBanner::Kind::kTrouble,
-                       Text::kLobbyRoomFailed,
-                       {},
-                       started.error().what,
-                       Text::kCount,
-                       LobbyWish::kNone});
+  auto started = ChildWords::start("dance-server",
+                                   {"--bind", "::", "--port", std::to_string(model.host.port)});
+  if (!started) return model.tell(error_banner(Text::kLobbyRoomFailed, {}, started.error().what));
   server_ = std::move(*started);
   model.host.state = HostFacts::State::kOpening;
 }
@@ -77,6 +86,12 @@ void RoomHost::open(LobbyModel& model) {
 void RoomHost::close(LobbyModel& model) {
   if (server_) server_->process().stop(kServerEnds);
   server_.reset();
+  if (router_) router_->close();
+  router_.reset();
+  model.host.router = HostFacts::Router::kNotAsked;
+  // Without the router's port its address would be wrong in the next room's invitations.
+  if (model.host.address == model.host.router_address) model.host.address.clear();
+  model.host.router_address.clear();
   model.host.state = HostFacts::State::kClosed;
   model.host.guests.clear();
 }
@@ -84,20 +99,14 @@ void RoomHost::close(LobbyModel& model) {
 void RoomHost::run(LobbyModel& model, const std::string& program,
                    std::vector<std::string> arguments, Done done) {
   auto started = ChildWords::start(program, std::move(arguments), true);
-  if (!started)
-    return model.tell({LobbyBanner::Kind::kTrouble,
-                       Text::kLobbyInviteFailed,
-                       {},
-                       started.error().what,
-                       Text::kCount,
-                       LobbyWish::kNone});
+  if (!started) return model.tell(error_banner(Text::kLobbyInviteFailed, {}, started.error().what));
   command_ = std::move(*started);
   done_ = std::move(done);
 }
 
 void RoomHost::list(LobbyModel& model) {
   run(model, "dance-server", {"--list-keys"}, [](LobbyModel& to, ChildWords& said) {
-    if (said.process().ended_well()) to.host.invited = names_of_keys(said.output());
+    if (said.process().ended_well()) to.host.invited = invited_guests(said.output());
   });
 }
 
@@ -111,24 +120,90 @@ void RoomHost::invite(LobbyModel& model) {
     to.host.invitation.clear();
     to.host.code = InvitationCode();
     to.host.invited_guest = name;
+    to.host.page.clear();
     if (said.process().ended_well()) {
+      to.forget(Text::kLobbyInviteFailed);
       to.host.invitation = printable(said.output().substr(0, said.output().find('\n')));
+      if (const auto made = parse_invitation(to.host.invitation))
+        to.host.is_for_home_only = reach_of(made->host) != InvitationReach::kEverywhere;
       if (auto code = make_qr_code(to.host.invitation))
         to.host.code = {code->size, std::move(code->dark)};
     } else {
-      to.tell({LobbyBanner::Kind::kTrouble,
-               Text::kLobbyInviteFailed,
-               {},
-               said.lines().empty() ? "" : said.lines().back(),
-               Text::kCount,
-               LobbyWish::kNone});
+      to.tell(error_banner(Text::kLobbyInviteFailed, {}, said.last_line()));
     }
     list(to);
   });
 }
 
+void RoomHost::ask_router(LobbyModel& model, MonoTime now) {
+  const Address router = default_router();
+  model.host.router = HostFacts::Router::kSilent;
+  if (!router.is_set() || !server_) return;
+  auto started =
+      RouterPort::start(router.with_port(RouterPort::kProtocolPort), model.host.port, now);
+  if (!started) return;
+  router_.emplace(std::move(*started));
+  model.host.router = HostFacts::Router::kAsking;
+}
+
+bool RoomHost::look_at_router(LobbyModel& model, MonoTime now) {
+  if (!router_ || !router_->work(now)) return false;
+  using Router = HostFacts::Router;
+  HostFacts& host = model.host;
+  switch (router_->state()) {
+    case RouterPort::State::kAsking:
+      host.router = Router::kAsking;
+      break;
+    case RouterPort::State::kOpen:
+      host.router = router_->is_behind_another() ? Router::kBehindAnother : Router::kOpen;
+      host.router_address = router_->address();
+      // An address that was typed stays.
+      if (host.router == Router::kOpen && host.address.empty()) host.address = host.router_address;
+      break;
+    case RouterPort::State::kRefused:
+      host.router = Router::kRefused;
+      break;
+    case RouterPort::State::kSilent:
+      host.router = Router::kSilent;
+      break;
+  }
+  return true;
+}
+
+void RoomHost::copy_message(LobbyModel& model) {
+  const auto text = invitation_message(model.texts, model.shown_name(), model.host.invitation);
+  if (text) ImGui::SetClipboardText(text->c_str());
+}
+
+// The page contains the key, so only this user may read it.
+void RoomHost::save_page(LobbyModel& model) {
+  namespace fs = std::filesystem;
+  const std::vector<std::string> folders = recording_folders();
+  const auto page = invitation_page(model.texts, model.shown_name(), model.host.invitation);
+  if (folders.empty() || !page) return model.tell(error_banner(Text::kInvitePageNotSaved));
+  std::error_code error;
+  fs::create_directories(folders.front(), error);
+  const std::string path = folders.front() + "/invitation-" + model.host.invited_guest + ".html";
+  if (const auto written = write_whole_file(path, *page); !written)
+    return model.tell(error_banner(Text::kInvitePageNotSaved, {}, written.error().what));
+  fs::permissions(path, fs::perms::owner_read | fs::perms::owner_write, error);
+  model.forget(Text::kInvitePageNotSaved);
+  model.host.page = with_tilde(path);
+}
+
+void RoomHost::open_page_folder(LobbyModel& model) {
+  opener_.reset();
+  const std::vector<std::string> folders = recording_folders();
+  if (folders.empty()) return;
+  auto started = open_folder(folders.front());
+  if (started)
+    opener_ = std::move(*started);
+  else
+    model.tell(error_banner(Text::kLobbyNotShown, {}, started.error().what));
+}
+
 void RoomHost::withdraw(LobbyModel& model) {
-  run(model, "dance-server", {"--remove-key", std::exchange(model.host.withdrawn, "")},
+  run(model, "dance-server", {"--remove-key=" + std::exchange(model.host.withdrawn, "")},
       [this](LobbyModel& to, ChildWords&) { list(to); });
 }
 
@@ -137,20 +212,17 @@ bool RoomHost::look_at_server(LobbyModel& model) {
   for (const std::string& line : server_->take_lines())
     if (line.starts_with("hears on ")) model.host.state = HostFacts::State::kOpen;
   if (!server_->process().has_ended()) return true;
-  const std::string last = server_->lines().empty() ? "" : server_->lines().back();
+  const std::string last = server_->last_line();
   const bool is_taken = last.find("in use") != std::string::npos;
-  model.tell({LobbyBanner::Kind::kTrouble,
-              is_taken ? Text::kLobbyPortTaken : Text::kLobbyRoomFailed,
-              {std::to_string(model.host.port)},
-              last,
-              Text::kCount,
-              LobbyWish::kNone});
+  model.tell(error_banner(is_taken ? Text::kLobbyPortTaken : Text::kLobbyRoomFailed,
+                          {std::to_string(model.host.port)}, last));
   close(model);
   return true;
 }
 
 bool RoomHost::look(LobbyModel& model, MonoTime now, bool is_shown) {
   bool is_new = look_at_server(model);
+  is_new = look_at_router(model, now) || is_new;
   if (command_) {
     command_->read();
     if (command_->process().has_ended()) {

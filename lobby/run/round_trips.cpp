@@ -9,7 +9,7 @@
 #include "core/net/poller.h"
 #include "house/session.h"
 #include "tunnel/link/failover/server_probe.h"
-#include "tunnel/seal/house_keys.h"
+#include "tunnel/seal/keys/house_keys.h"
 #include "tunnel/server/server.h"
 
 namespace dance {
@@ -111,7 +111,7 @@ void AskedRooms::ask(std::span<const Place> found) {
       addresses.push_back(server.address);
   auto poller = Poller::create();
   if (!poller || addresses.empty()) return;
-  ServerProbe probe(**poller);
+  ServerProbe probe(**poller, [](const Address&) {});
   const MonoTime until = mono_now() + kLongestRound;
   probe.begin(addresses, mono_now());
   while (!probe.is_done() && mono_now() < until && !has_stopped()) {
@@ -148,7 +148,10 @@ void AskedRooms::ask_guests(const Place& server) {
       guests.state = key ? RoomGuests::State::kNoKey : RoomGuests::State::kRefused;
       continue;
     }
-    auto known = std::ranges::find(all, (*key)->name, [](const Asked& to) { return to.key.name; });
+    // Rooms that one key opens share a session.
+    auto known = std::ranges::find_if(all, [&](const Asked& to) {
+      return to.key.identity == (*key)->identity && to.key.key == (*key)->key;
+    });
     if (known == all.end()) known = all.insert(all.end(), {std::move(**key), {}, {}});
     known->places.push_back(i);
     known->rooms.push_back(*room);

@@ -15,8 +15,8 @@ bool take_texts(std::span<const Text> from, std::vector<Text>& to) {
   return true;
 }
 
-std::vector<SoundDevice> devices_of(std::span<const ListedSound> listed) {
-  std::vector<SoundDevice> devices;
+std::vector<LobbySoundDevice> devices_of(std::span<const ListedSound> listed) {
+  std::vector<LobbySoundDevice> devices;
   for (const ListedSound& it : listed) devices.push_back({it.name, it.description});
   return devices;
 }
@@ -49,7 +49,8 @@ void SeenAndHeard::play_count_in() {
 
 void SeenAndHeard::begin_and_end(LobbyModel& model) {
   const LobbySettings& settings = model.settings;
-  const bool is_here = model.screen == LobbyScreen::kYou && !model.is_going_in;
+  const bool is_here =
+      model.screen == LobbyScreen::kYou && !model.is_going_in && !model.join_request;
   const bool wants_camera = is_here && settings.source == DancerSource::kCamera &&
                             model.has_camera && !model.cameras.empty();
   if (camera_ && (!wants_camera || camera_device_ != settings.camera)) {

@@ -18,6 +18,11 @@ struct Sign {
 // producers/camera/, core/sound/. The test of lobby/ takes the lines from there.
 constexpr std::array kSigns{
     Sign{"does not know this house's key", Text::kLobbyKeyRefused, Names::kServer, true},
+    Sign{"has another key than", Text::kLobbyServerKeyChanged, Names::kServer, true},
+    Sign{"this house's key has expired", Text::kLobbyKeyExpired, Names::kServer, true},
+    Sign{"key is in use in as many places", Text::kLobbyKeyBusy, Names::kServer, true},
+    Sign{"key has opened as many rooms", Text::kLobbyKeyBusy, Names::kServer, true},
+    Sign{"key has as many places in room", Text::kLobbyKeyBusy, Names::kServer, true},
     Sign{"there is no key for", Text::kLobbyNoKey, Names::kServer, true},
     Sign{"already through another link", Text::kLobbyNameTaken, Names::kGuest, true},
     Sign{"is full: wait", Text::kLobbyRoomFull, Names::kNothing, true},
@@ -37,6 +42,7 @@ constexpr std::array kSigns{
     Sign{"cannot be resolved", Text::kLobbyServerSilent, Names::kServer, true},
     Sign{"in use; close the program", Text::kLobbyCameraTaken, Names::kCamera, false},
     Sign{"in use by another program", Text::kLobbyCameraTaken, Names::kCamera, false},
+    Sign{"dance voice: no sound server", Text::kLobbyMicrophoneUnreachable, Names::kNothing, false},
     Sign{"no microphone", Text::kLobbyMicrophoneSilent, Names::kNothing, false},
     Sign{"nobody dances in this recording", Text::kLobbyFileUnreadable, Names::kNothing, true},
     Sign{"none in it is called", Text::kLobbyFileUnreadable, Names::kNothing, true},
@@ -61,9 +67,9 @@ std::vector<std::string> names_for(Names names, const LobbySettings& settings) {
 std::optional<ChildTrouble> trouble_in(std::string_view line, const LobbySettings& settings) {
   for (const Sign& sign : kSigns)
     if (line.find(sign.says) != std::string_view::npos)
-      return ChildTrouble{{LobbyBanner::Kind::kTrouble, sign.text, names_for(sign.names, settings),
-                           std::string(line), Text::kCount, LobbyWish::kNone},
-                          sign.is_fatal};
+      return ChildTrouble{
+          error_banner(sign.text, names_for(sign.names, settings), std::string(line)),
+          sign.is_fatal};
   return std::nullopt;
 }
 
@@ -74,8 +80,7 @@ LobbyBanner newest_trouble(const std::deque<std::string>& lines, const LobbySett
   for (auto line = lines.rbegin(); line != lines.rend(); ++line)
     if (auto trouble = trouble_in(*line, settings); trouble && (trouble->is_fatal || !is_fatal))
       return trouble->banner;
-  return {LobbyBanner::Kind::kTrouble,       otherwise,    {},
-          lines.empty() ? "" : lines.back(), Text::kCount, LobbyWish::kNone};
+  return error_banner(otherwise, {}, lines.empty() ? "" : lines.back());
 }
 
 }  // namespace
@@ -84,12 +89,11 @@ bool says_it_is_in(std::string_view line, bool is_alone) {
   return is_alone ? line.starts_with("the house is open") : line.starts_with("in room '");
 }
 
-LobbyBanner trouble_of_beginning(const std::deque<std::string>& lines,
-                                 const LobbySettings& settings) {
+LobbyBanner start_error_of(const std::deque<std::string>& lines, const LobbySettings& settings) {
   return newest_trouble(lines, settings, Text::kLobbyNotBegun, false);
 }
 
-LobbyBanner trouble_of_end(const std::deque<std::string>& lines, const LobbySettings& settings) {
+LobbyBanner end_error_of(const std::deque<std::string>& lines, const LobbySettings& settings) {
   return newest_trouble(lines, settings, Text::kLobbyDanceEnded, true);
 }
 

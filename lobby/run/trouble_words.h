@@ -25,9 +25,8 @@ std::optional<ChildTrouble> trouble_in(std::string_view line, const LobbySetting
 // The house dances: alone, as soon as it is open; in a room when the server has let it in.
 bool says_it_is_in(std::string_view line, bool is_alone);
 // Of a house that does not get to dance: the newest trouble that it told of, if any.
-LobbyBanner trouble_of_beginning(const std::deque<std::string>& lines,
-                                 const LobbySettings& settings);
+LobbyBanner start_error_of(const std::deque<std::string>& lines, const LobbySettings& settings);
 // Of a program that has ended: what its last line says, where that is known, else that it ended.
-LobbyBanner trouble_of_end(const std::deque<std::string>& lines, const LobbySettings& settings);
+LobbyBanner end_error_of(const std::deque<std::string>& lines, const LobbySettings& settings);
 
 }  // namespace dance

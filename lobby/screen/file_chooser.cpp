@@ -37,6 +37,8 @@ bool is_file_for(ChooserPurpose purpose, std::string_view name) {
       return ends({".ogg", ".opus", ".flac", ".wav", ".mp3", ".m4a", ".aac"});
     case ChooserPurpose::kAvatar:
       return ends({".vrm", ".glb"});
+    case ChooserPurpose::kVideo:
+      return ends({".mp4", ".webm", ".mkv", ".mov", ".avi"});
     case ChooserPurpose::kNone:
       break;
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <utility>
 
 #include "lobby/screen/lobby_screens.h"
 
@@ -11,6 +13,23 @@ namespace {
 constexpr float kRail_u = 236.0f;
 constexpr float kContent_u = 900.0f;  // at most: longer lines are hard to read
 constexpr float kMargin_u = 28.0f;
+
+// Two buttons with a small and a large A: smaller and larger letters.
+void draw_letter_size(LobbyModel& model, LobbyKit& kit) {
+  constexpr double kStep = 1.1;
+  double& letters = model.settings.window.letters;
+  const auto change = [&](double by) {
+    letters = std::clamp(std::round(100.0 * letters * by) / 100.0, WindowChoices::kSmallestLetters,
+                         WindowChoices::kLargestLetters);
+    if (std::abs(letters - 1.0) < 0.04) letters = 1.0;
+  };
+  if (kit.small_button("A##smaller")) change(1.0 / kStep);
+  ImGui::SameLine();
+  ImGui::PushFont(kit.fonts().title);
+  const bool is_larger = kit.button("A##larger", ButtonLook::kQuiet);
+  ImGui::PopFont();
+  if (is_larger) change(kStep);
+}
 
 void draw_rail(LobbyModel& model, LobbyKit& kit, float height_px) {
   const Texts& t = model.texts;
@@ -25,13 +44,14 @@ void draw_rail(LobbyModel& model, LobbyKit& kit, float height_px) {
     Text text;
   };
   for (const Place& place :
-       {Place{LobbyScreen::kYou, Text::kLobbyYou}, Place{LobbyScreen::kDance, Text::kLobbyDance},
-        Place{LobbyScreen::kHost, Text::kLobbyHost}}) {
+       {Place{LobbyScreen::kDance, Text::kLobbyDance}, Place{LobbyScreen::kYou, Text::kLobbyYou},
+        Place{LobbyScreen::kHost, Text::kLobbyHost},
+        Place{LobbyScreen::kShelf, Text::kLobbyShelf}}) {
     if (place.screen == LobbyScreen::kHost && !model.has_server) continue;
     if (kit.row(t[place.text], t[place.text], "", model.screen == place.screen))
       model.show(place.screen);
   }
-  const float foot = kit.px(46.0f * 3.0f + 100.0f);
+  const float foot = kit.px(46.0f * 3.0f + 144.0f);
   ImGui::SetCursorPosY(std::max(ImGui::GetCursorPosY() + kit.px(10.0f), height_px - foot));
   for (const LanguageName& it : kLanguages) {
     const std::string name(it.name);
@@ -39,6 +59,7 @@ void draw_rail(LobbyModel& model, LobbyKit& kit, float height_px) {
     if (kit.button(name.c_str(), is_chosen ? ButtonLook::kPlain : ButtonLook::kQuiet, 120.0f))
       model.set_language(it.language);
   }
+  draw_letter_size(model, kit);
   kit.note(t[Text::kLobbyKeysHint]);
   ImGui::EndChild();
   ImGui::PopStyleVar();
@@ -51,12 +72,15 @@ void draw_banners(LobbyModel& model, LobbyKit& kit) {
     for (const std::string& value : banner.values)
       if (const std::size_t at = words.find("{}"); at != std::string::npos)
         words.replace(at, 2, value);
-    const char* button = banner.button == Text::kCount ? nullptr : model.texts[banner.button];
+    const auto words_of = [&](Text button) {
+      return button == Text::kCount ? nullptr : model.texts[button];
+    };
     const LobbyKit::Strip pressed =
         kit.strip(static_cast<int>(i), banner.kind == LobbyBanner::Kind::kTrouble, words,
-                  banner.detail, button);
+                  banner.detail, words_of(banner.button), words_of(banner.other_button));
     if (pressed == LobbyKit::Strip::kNone) continue;
     if (pressed == LobbyKit::Strip::kButton) model.ask(banner.wish);
+    if (pressed == LobbyKit::Strip::kOtherButton) model.ask(banner.other_request);
     model.banners.erase(model.banners.begin() + static_cast<std::ptrdiff_t>(i));
     return;
   }
@@ -67,10 +91,11 @@ void draw_content(LobbyModel& model, LobbyKit& kit, float width_px, float height
   const float width = std::min(room, kit.px(kContent_u + 2.0f * kMargin_u));
   ImGui::SetCursorPos(ImVec2(kit.px(kRail_u) + std::max(0.0f, 0.5f * (room - width)), 0.0f));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(kit.px(kMargin_u), kit.px(24.0f)));
-  // Each screen by itself: it begins at its top, and keeps where it was scrolled to.
-  constexpr std::array<const char*, 3> kNames{"you", "dance", "host"};
+  // Each screen scrolls by itself.
+  constexpr std::array<const char*, 4> kNames{"you", "dance", "host", "shelf"};
   ImGui::BeginChild(kNames[static_cast<std::size_t>(model.screen)], ImVec2(width, height_px), false,
                     ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NavFlattened);
+  if (std::exchange(model.is_at_top, false)) ImGui::SetScrollY(0.0f);
   draw_banners(model, kit);
   switch (model.screen) {
     case LobbyScreen::kYou:
@@ -81,6 +106,9 @@ void draw_content(LobbyModel& model, LobbyKit& kit, float width_px, float height
       break;
     case LobbyScreen::kHost:
       draw_host_screen(model, kit);
+      break;
+    case LobbyScreen::kShelf:
+      draw_shelf_screen(model, kit);
       break;
   }
   ImGui::EndChild();
@@ -116,24 +144,57 @@ void draw_going_in(LobbyModel& model, LobbyKit& kit, float width_px, float heigh
   ImGui::EndPopup();
 }
 
+// Cancel has the focus, so that a key pressed for another window confirms nothing.
+void draw_join_request(LobbyModel& model, LobbyKit& kit, float width_px, float height_px) {
+  JoinRequest& request = *model.join_request;
+  // A long host name takes more lines, of 20 units and at least 30 characters each.
+  const std::size_t letters = request.room.size() + request.server.size() + request.guest.size();
+  const float high_u =
+      (request.has_new_key ? 390.0f : 330.0f) + 20.0f * static_cast<float>(letters / 30);
+  if (!begin_sheet(kit, "join request", width_px, height_px, 560.0f, high_u)) return;
+  const Texts& t = model.texts;
+  kit.title(t[Text::kLobbyInvitation]);
+  kit.gap(2.0f);
+  kit.text(t.say(Text::kLobbyAskJoin, {request.room, request.server, request.guest}));
+  kit.text(t[request.watches_only ? Text::kLobbyAskWatch
+             : request.speaks     ? Text::kLobbyAskMotionAndVoice
+                                  : Text::kLobbyAskMotion]);
+  if (model.has_voice && !request.watches_only) {
+    kit.label(t[Text::kLobbyMicrophone]);
+    if (kit.choice(t[Text::kLobbyYes], request.speaks)) request.speaks = true;
+    kit.beside(t[Text::kLobbyNo]);
+    if (kit.choice(t[Text::kLobbyNo], !request.speaks)) request.speaks = false;
+  }
+  kit.note(t[request.has_new_key ? Text::kLobbyAskNewKey : Text::kLobbyAskNew]);
+  kit.gap(6.0f);
+  if (kit.button(t[Text::kLobbyCancel], ButtonLook::kPlain, 140.0f) ||
+      ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)))
+    model.ask(LobbyWish::kCancel);
+  ImGui::SetItemDefaultFocus();
+  kit.beside(t[Text::kLobbyJoin], 140.0f);
+  if (kit.button(t[Text::kLobbyJoin], ButtonLook::kAccent, 140.0f))
+    model.ask(LobbyWish::kConfirmJoin);
+  ImGui::EndPopup();
+}
+
 }  // namespace
 
-void draw_command(LobbyModel& model, LobbyKit& kit, LobbyWish wish) {
+void draw_commands(LobbyModel& model, LobbyKit& kit, std::initializer_list<CommandOf> commands) {
   const Texts& t = model.texts;
-  ImGui::PushID(static_cast<int>(wish));
-  const bool is_shown = model.shows_command && model.command_for == wish;
-  const char* words = t[is_shown ? Text::kLobbyHideCommand : Text::kLobbyShowCommand];
-  if (kit.small_button(words)) {
-    model.shows_command = !is_shown;
-    model.command_for = wish;
-  }
-  if (is_shown) {
-    kit.note(t[Text::kLobbyCommandNote]);
-    const std::string line = model.command(wish);
+  const char* words = t[model.shows_command ? Text::kLobbyHideCommand : Text::kLobbyShowCommand];
+  if (kit.small_button(words)) model.shows_command = !model.shows_command;
+  if (!model.shows_command) return;
+  kit.begin_card(nullptr);
+  kit.note(t[Text::kLobbyCommandNote]);
+  for (const CommandOf& it : commands) {
+    ImGui::PushID(static_cast<int>(it.wish));
+    const std::string line = model.command(it.wish);
+    if (commands.size() > 1) kit.note(t[it.button]);
     kit.box(line);
-    if (kit.button(t[Text::kLobbyCopy])) ImGui::SetClipboardText(line.c_str());
+    if (kit.small_button(t[Text::kLobbyCopy])) ImGui::SetClipboardText(line.c_str());
+    ImGui::PopID();
   }
-  ImGui::PopID();
+  kit.end_card();
 }
 
 void draw_lobby(LobbyModel& model, LobbyKit& kit, float width_px, float height_px) {
@@ -150,6 +211,8 @@ void draw_lobby(LobbyModel& model, LobbyKit& kit, float width_px, float height_p
   draw_content(model, kit, width_px, height_px);
   if (model.is_going_in) {
     draw_going_in(model, kit, width_px, height_px);
+  } else if (model.join_request) {
+    draw_join_request(model, kit, width_px, height_px);
   } else if (model.chooser.is_open()) {
     if (begin_sheet(kit, "choose", width_px, height_px, 720.0f, 620.0f)) {
       draw_file_chooser(model, kit);

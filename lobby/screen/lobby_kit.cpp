@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/text/plain_text.h"
+
 namespace dance {
 namespace {
 
@@ -186,7 +188,8 @@ void LobbyKit::beside(const char* next_words, float least_u) {
   if (next + width <= edge - px(kCardPad_u)) ImGui::SameLine();
 }
 
-std::string LobbyKit::shortened(const std::string& text, float width_px) {
+std::string LobbyKit::shortened(const std::string& full_text, float width_px) {
+  const std::string text = plain_text(full_text);
   if (ImGui::CalcTextSize(text.c_str()).x <= width_px) return text;
   const auto is_middle_of_character = [&](std::size_t at) {
     return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0u) == 0x80u;
@@ -259,7 +262,9 @@ bool LobbyKit::field(const char* id, std::string& value, float width_u, std::siz
   std::string buffer = value;
   buffer.resize(most_bytes + 1, '\0');
   ImGui::SetNextItemWidth(std::min(px(width_u), room_px() - px(kCardPad_u)));
-  const bool has_changed = ImGui::InputText(id, buffer.data(), buffer.size());
+  // A click selects all of it, so that what is typed next takes its place.
+  const bool has_changed =
+      ImGui::InputText(id, buffer.data(), buffer.size(), ImGuiInputTextFlags_AutoSelectAll);
   look_at_item(id);
   if (has_changed) value = buffer.c_str();
   return has_changed;
@@ -312,7 +317,8 @@ void LobbyKit::code(int size, const std::vector<bool>& dark) {
 }
 
 LobbyKit::Strip LobbyKit::strip(int id, bool is_trouble, const std::string& words,
-                                const std::string& detail, const char* button_words) {
+                                const std::string& detail, const char* button_words,
+                                const char* other_words) {
   Strip pressed = Strip::kNone;
   ImGui::PushID(id);
   ImDrawList* list = ImGui::GetWindowDrawList();
@@ -321,8 +327,11 @@ LobbyKit::Strip LobbyKit::strip(int id, bool is_trouble, const std::string& word
   const ImVec2 low = ImGui::GetCursorScreenPos();
   const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
   const float close = px(44.0f);
-  const float button_room =
-      button_words != nullptr ? ImGui::CalcTextSize(button_words).x + px(46.0f) : 0.0f;
+  const auto room_of = [&](const char* it) {
+    return it != nullptr ? ImGui::CalcTextSize(it).x + px(46.0f) : 0.0f;
+  };
+  const float other_room = room_of(other_words);
+  const float button_room = room_of(button_words) + other_room;
   const float wrap = right - close - button_room - px(16.0f) - ImGui::GetWindowPos().x;
   ImGui::BeginGroup();
   gap(2.0f);
@@ -346,6 +355,10 @@ LobbyKit::Strip LobbyKit::strip(int id, bool is_trouble, const std::string& word
   if (button_words != nullptr) {
     ImGui::SetCursorScreenPos({right - close - button_room, y});
     if (button(button_words)) pressed = Strip::kButton;
+  }
+  if (other_words != nullptr) {
+    ImGui::SetCursorScreenPos({right - close - other_room, y});
+    if (button(other_words)) pressed = Strip::kOtherButton;
   }
   ImGui::SetCursorScreenPos({right - close - px(4.0f), y});
   push_colours(colours_of(ButtonLook::kQuiet));

@@ -7,6 +7,7 @@
 // Failure:      a text that does not fit into its place is noted in `clipped`, for tests.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,19 +62,30 @@ class LobbyKit {
   bool field(const char* id, std::string& value, float width_u, std::size_t most_bytes);
   // Text to copy, in a box.
   void box(const std::string& text);
+  // An OpenGL texture with rounded corners, rows from the bottom; null = an empty box.
+  void picture(void* texture, float width_px, float height_px);
+  // A clickable picture with a caption.
+  bool picture_choice(const char* id, void* texture, const std::string& words, float width_u,
+                      float height_u, bool is_chosen);
+  // A clickable colour (sRGB, 0xRRGGBB).
+  bool swatch(const char* id, std::uint32_t rgb, bool is_chosen);
+  // A picture at the right edge, behind the items that follow. It fades out to the left and at the
+  // bottom; if it is too wide, both sides are cut off.
+  void backdrop(void* texture, float aspect, float width_px, float height_px);
   // How loud it is, and was: 0 to 1.
   void meter(float level, float held);
   // A QR code of so many modules in a row, with the quiet zone that a phone wants.
   void code(int size, const std::vector<bool>& dark);
-  // A strip over the whole width with words, and buttons at its end.
-  enum class Strip { kNone, kButton, kClose };
+  // A strip over the whole width with words, and buttons at its end; nullptr = no button.
+  enum class Strip { kNone, kButton, kOtherButton, kClose };
   Strip strip(int id, bool is_trouble, const std::string& words, const std::string& detail,
-              const char* button);
+              const char* button, const char* other_button);
 
   float room_px() const;  // from here to the right edge of the card
   const LobbyFonts& fonts() const { return fonts_; }
-  // Shortened in the middle with an ellipsis to that width, in the current font.
-  static std::string shortened(const std::string& text, float width_px);
+  // Plain text of a text, because names of files and devices come from outside. An ellipsis in the
+  // middle shortens it to that width in the current font.
+  static std::string shortened(const std::string& full_text, float width_px);
 
  private:
   void look_at_item(const char* words);

@@ -1,11 +1,14 @@
-// The window's screens, drawn with Dear ImGui from a LobbyModel: which guest, with whom, and a room
-// of one's own. They change the model's settings and note what is asked for; they do nothing else.
+// The window's screens, drawn with Dear ImGui from a LobbyModel: which guest, with whom, a room of
+// one's own, and the recordings. They change the model's settings and note what is asked for; they
+// do nothing else.
 //
 // Units/frames: pixels.
 // Ownership:    refers to the model for the length of a call.
 // Threads:      the drawing thread, within a frame of Dear ImGui.
 // Failure:      none.
 #pragma once
+
+#include <initializer_list>
 
 #include "lobby/screen/lobby_kit.h"
 #include "lobby/screen/lobby_model.h"
@@ -17,10 +20,16 @@ void draw_lobby(LobbyModel& model, LobbyKit& kit, float width_px, float height_p
 
 // Of draw_lobby(), one each.
 void draw_you_screen(LobbyModel& model, LobbyKit& kit);
+void draw_figure_card(LobbyModel& model, LobbyKit& kit);  // on the page You
 void draw_dance_screen(LobbyModel& model, LobbyKit& kit);
 void draw_host_screen(LobbyModel& model, LobbyKit& kit);
+void draw_shelf_screen(LobbyModel& model, LobbyKit& kit);
 void draw_file_chooser(LobbyModel& model, LobbyKit& kit);
-// "Show the command" for what that button does.
-void draw_command(LobbyModel& model, LobbyKit& kit, LobbyWish wish);
+// Draws "Show the command" once a page: the commands that do the same as its buttons.
+struct CommandOf {
+  Text button;
+  LobbyWish wish;
+};
+void draw_commands(LobbyModel& model, LobbyKit& kit, std::initializer_list<CommandOf> commands);
 
 }  // namespace dance

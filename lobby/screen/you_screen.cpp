@@ -9,47 +9,16 @@
 namespace dance {
 namespace {
 
-constexpr double kLeastHeight_m = 0.8, kMostHeight_m = 2.5, kUsualHeight_m = 1.7;
-
 std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
 void draw_name(LobbyModel& model, LobbyKit& kit) {
   const Texts& t = model.texts;
   kit.begin_card(nullptr);
   kit.label(t[Text::kLobbyYourName]);
-  if (kit.field("##name", model.name_typed, 260.0f, kMaxGuestIdLength)) {
-    const std::string name = name_from(model.name_typed);
-    if (!name.empty()) model.settings.name = name;
-  }
-  if (model.name_typed != model.settings.name) {
-    ImGui::SameLine();
-    ImGui::AlignTextToFramePadding();
-    kit.note(model.settings.name);
-  }
+  if (kit.field("##name", model.name_typed, 260.0f, kMaxShownNameBytes)) model.take_typed_name();
+  if (model.name_typed != model.settings.name)
+    kit.note(t.say(Text::kLobbyYourId, {model.settings.name}));
   kit.end_card();
-}
-
-void draw_height(LobbyModel& model, LobbyKit& kit) {
-  const Texts& t = model.texts;
-  double& height_m = model.settings.height_m;
-  kit.label(t[Text::kLobbyYourHeight]);
-  const auto step = [&](double by_m) {
-    const double from_m = height_m > 0.0 ? height_m : kUsualHeight_m - by_m;
-    // In whole centimetres, whatever stood in the file.
-    height_m =
-        std::clamp(std::round(100.0 * (from_m + by_m)) / 100.0, kLeastHeight_m, kMostHeight_m);
-  };
-  ImGui::PushButtonRepeat(true);
-  if (kit.button("-")) step(-0.01);
-  ImGui::SameLine();
-  if (kit.button("+")) step(0.01);
-  ImGui::PopButtonRepeat();
-  ImGui::SameLine();
-  ImGui::AlignTextToFramePadding();
-  std::array<char, 16> metres{};
-  std::snprintf(metres.data(), metres.size(), "%.2f", height_m);
-  kit.text(height_m > 0.0 ? t.say(Text::kLobbyHeightMetres, {metres.data()})
-                          : std::string(t[Text::kLobbyHeightNotSaid]));
 }
 
 void draw_preview(LobbyModel& model, LobbyKit& kit) {
@@ -76,8 +45,28 @@ void draw_camera(LobbyModel& model, LobbyKit& kit) {
                 is_chosen))
       model.settings.camera = camera.path;
   }
-  if (model.has_camera && kit.button(t[Text::kLobbyLookAgain])) model.ask(LobbyWish::kLookAgain);
-  draw_height(model, kit);
+  if (model.has_camera) {
+    const bool is_video = is_video_file(model.settings.camera);
+    const std::string words =
+        LobbyKit::shortened(is_video ? file_name(model.settings.camera) : t[Text::kLobbyVideoFile],
+                            kit.px(300.0f)) +
+        "##video";
+    if (kit.button(t[Text::kLobbyLookAgain])) model.ask(LobbyWish::kLookAgain);
+    kit.beside(words.c_str());
+    if (kit.choice(words.c_str(), is_video))
+      model.chooser.open(ChooserPurpose::kVideo, is_video ? model.settings.camera : "");
+  }
+}
+
+void draw_headset(LobbyModel& model, LobbyKit& kit) {
+  const Texts& t = model.texts;
+  const bool is_missing = model.has_headset && !model.headset_error.empty();
+  kit.text(t[!model.has_headset ? Text::kLobbyNoHeadsetBuilt
+             : is_missing       ? Text::kLobbyNoHeadset
+                                : Text::kLobbyHeadsetHow]);
+  if (!is_missing) return;
+  kit.note(model.headset_error);
+  if (kit.button(t[Text::kLobbyLookAgain])) model.ask(LobbyWish::kLookAgain);
 }
 
 void draw_motion_file(LobbyModel& model, LobbyKit& kit) {
@@ -98,8 +87,8 @@ void draw_source(LobbyModel& model, LobbyKit& kit) {
   };
   constexpr std::array kPlaces{
       Place{kCamera, Text::kLobbyFromCamera}, Place{kHeadset, Text::kLobbyFromHeadset},
-      Place{kFile, Text::kLobbyFromFile}, Place{kSynthetic, Text::kLobbyFromNobody},
-      Place{kElsewhere, Text::kLobbyFromElsewhere}};
+      Place{kFile, Text::kLobbyFromFile},     Place{kSynthetic, Text::kLobbyFromNobody},
+      Place{kWatch, Text::kLobbyOnlyWatch},   Place{kElsewhere, Text::kLobbyFromElsewhere}};
   bool is_first = true;
   for (const Place& place : kPlaces) {
     if (place.source == kElsewhere && source != kElsewhere) continue;
@@ -116,36 +105,23 @@ void draw_source(LobbyModel& model, LobbyKit& kit) {
   }
   kit.gap(4.0f);
   if (source == kCamera) draw_camera(model, kit);
-  if (source == kHeadset)
-    kit.text(t[model.has_headset ? Text::kLobbyHeadsetHow : Text::kLobbyNoHeadsetBuilt]);
+  if (source == kHeadset) draw_headset(model, kit);
   if (source == kFile) draw_motion_file(model, kit);
+  if (source == kWatch) kit.note(t[Text::kLobbyOnlyWatchNote]);
   if (source == kSynthetic) {
-    if (kit.choice(t[Text::kLobbyLeads], model.settings.leads)) model.settings.leads = true;
+    std::string& role = model.settings.role;
+    if (kit.choice(t[Text::kLobbyAnyRole], role == "any")) role = "any";
+    kit.beside(t[Text::kLobbyLeads]);
+    if (kit.choice(t[Text::kLobbyLeads], role == "lead")) role = "lead";
     kit.beside(t[Text::kLobbyFollows]);
-    if (kit.choice(t[Text::kLobbyFollows], !model.settings.leads)) model.settings.leads = false;
+    if (kit.choice(t[Text::kLobbyFollows], role == "follow")) role = "follow";
   }
-  kit.end_card();
-}
-
-void draw_figure(LobbyModel& model, LobbyKit& kit) {
-  const Texts& t = model.texts;
-  std::string& avatar = model.settings.avatar;
-  kit.begin_card(t[Text::kLobbyYourFigure]);
-  if (kit.choice(t[Text::kLobbyMannequin], avatar.empty())) avatar.clear();
-  for (const std::string& name : model.avatars) {
-    kit.beside(name.c_str());
-    if (kit.choice(name.c_str(), avatar == name)) avatar = name;
-  }
-  const bool is_file = avatar.find('/') != std::string::npos;
-  const std::string own = is_file ? file_name(avatar) : std::string(t[Text::kLobbyOwnFigure]);
-  const std::string shown = LobbyKit::shortened(own, kit.px(300.0f)) + "##own";
-  kit.beside(shown.c_str());
-  if (kit.choice(shown.c_str(), is_file)) model.chooser.open(ChooserPurpose::kAvatar, avatar);
   kit.end_card();
 }
 
 void draw_yes_or_no(const Texts& t, LobbyKit& kit, Text question, bool& answer) {
   ImGui::PushID(static_cast<int>(question));
+  ImGui::AlignTextToFramePadding();
   kit.text(t[question]);
   ImGui::SameLine(kit.px(300.0f));
   if (kit.choice(t[Text::kLobbyYes], answer)) answer = true;
@@ -155,11 +131,11 @@ void draw_yes_or_no(const Texts& t, LobbyKit& kit, Text question, bool& answer) 
 }
 
 void draw_devices(LobbyKit& kit, const Texts& t, Text heading,
-                  const std::vector<SoundDevice>& devices, std::string& chosen) {
+                  const std::vector<LobbySoundDevice>& devices, std::string& chosen) {
   kit.note(t[heading]);
   ImGui::PushID(static_cast<int>(heading));
   if (kit.row("usual", t[Text::kLobbyUsualDevice], "", chosen.empty())) chosen.clear();
-  for (const SoundDevice& device : devices)
+  for (const LobbySoundDevice& device : devices)
     if (kit.row(device.name.c_str(), device.description, "", chosen == device.name))
       chosen = device.name;
   ImGui::PopID();
@@ -196,9 +172,9 @@ void draw_you_screen(LobbyModel& model, LobbyKit& kit) {
   kit.gap(2.0f);
   draw_name(model, kit);
   draw_source(model, kit);
-  draw_figure(model, kit);
+  draw_figure_card(model, kit);
   if (model.has_voice) draw_voice(model, kit);
-  draw_command(model, kit, LobbyWish::kJoin);
+  draw_commands(model, kit, {{Text::kLobbyJoin, LobbyWish::kJoin}});
 }
 
 void draw_file_chooser(LobbyModel& model, LobbyKit& kit) {
@@ -238,6 +214,10 @@ void draw_file_chooser(LobbyModel& model, LobbyKit& kit) {
         break;
       case ChooserPurpose::kAvatar:
         settings.avatar = path;
+        break;
+      case ChooserPurpose::kVideo:
+        settings.camera = path;
+        settings.source = DancerSource::kCamera;
         break;
       case ChooserPurpose::kNone:
         break;

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "core/base/plain_number.h"
+#include "core/base/text/guest_id_hint.h"
+#include "formats/body/look_names.h"
 #include "formats/session/table_edit.h"
 
 namespace dance {
@@ -107,10 +109,11 @@ Result<void> rename_guest(SessionText& text, const std::string& from, const std:
   return {};
 }
 
-Result<void> edit_name(SessionText& text, const HouseConfig& before, const std::string& name) {
+Result<void> edit_name(SessionText& text, const HouseConfig& before, const LobbySettings& wanted) {
+  const std::string& name = wanted.name;
   if (before.guests.empty()) {
     // A house that only watches stays one until a name is chosen.
-    if (name == LobbySettings().name) return {};
+    if (name == LobbySettings().name && wanted.shown_name.empty()) return {};
     return text.set(kHouseTable, "guest", toml_text(name));
   }
   const std::string old(before.guests.front().view());
@@ -138,15 +141,34 @@ Values produce_values(const LobbySettings& wanted) {
     case DancerSource::kFile:
       return {{"kind", "\"replay\""}, {"file", toml_text(wanted.motion_file)}};
     case DancerSource::kSynthetic:
-      return {{"kind", "\"salsa\""}, {"role", wanted.leads ? "\"lead\"" : "\"follow\""}};
+      return {{"kind", "\"salsa\""}, {"role", toml_text(wanted.role)}};
+    case DancerSource::kWatch:
     case DancerSource::kElsewhere:
       break;
   }
   return {};
 }
 
-Result<void> edit_source(SessionText& text, const LobbySettings& now, const LobbySettings& wanted) {
-  if (wanted.source == DancerSource::kElsewhere) return {};
+bool has_same_source(const LobbySettings& a, const LobbySettings& b) {
+  return a.source == b.source && a.camera == b.camera && a.height_m == b.height_m &&
+         a.motion_file == b.motion_file && a.role == b.role;
+}
+
+// A watcher keeps the [[produce]] for a later dance.
+Result<LobbySettings> edit_watching(SessionText& text, const LobbySettings& now,
+                                    const LobbySettings& wanted) {
+  const bool watches = wanted.source == DancerSource::kWatch;
+  if (watches == (now.source == DancerSource::kWatch)) return now;
+  auto done = watches ? text.set(kHouseTable, "watch", "true") : text.remove(kHouseTable, "watch");
+  if (!done) return tl::make_unexpected(done.error());
+  DANCE_TRY(const HouseConfig house, text.house());
+  return settings_of(house);
+}
+
+Result<void> edit_source(SessionText& text, const LobbySettings& before,
+                         const LobbySettings& wanted) {
+  DANCE_TRY(const LobbySettings now, edit_watching(text, before, wanted));
+  if (has_same_source(now, wanted) || wanted.source == DancerSource::kElsewhere) return {};
   DANCE_TRY(const auto place, text.find("produce", wanted.name));
   Values values = produce_values(wanted);
   if (now.source != wanted.source) {
@@ -168,18 +190,34 @@ Result<void> edit_source(SessionText& text, const LobbySettings& now, const Lobb
 
 bool is_file_name(const std::string& avatar) { return avatar.find('/') != std::string::npos; }
 
+bool has_same_figure(const LobbySettings& a, const LobbySettings& b) {
+  return a.avatar == b.avatar && a.look == b.look && a.colour == b.colour &&
+         a.figure_height == b.figure_height;
+}
+
+bool has_chosen_figure(const LobbySettings& settings) {
+  return !has_same_figure(settings, LobbySettings());
+}
+
 Result<void> edit_avatar(SessionText& text, const LobbySettings& wanted) {
-  DANCE_TRY(const auto place, text.find("avatar", wanted.name));
-  if (wanted.avatar.empty()) return place ? text.remove_whole(*place) : Result<void>();
-  const bool is_file = is_file_name(wanted.avatar);
-  const char* key = is_file ? "file" : "name";
-  if (!place) {
-    text.append("avatar", {{"guest", toml_text(wanted.name)}, {key, toml_text(wanted.avatar)}});
-    return {};
+  const auto place = [&] { return text.find("avatar", wanted.name); };
+  DANCE_TRY(auto found, place());
+  if (!has_chosen_figure(wanted)) return found ? text.remove_whole(*found) : Result<void>();
+  if (!found) {
+    text.append("avatar", {{"guest", toml_text(wanted.name)}});
+    DANCE_TRY(found, place());
   }
-  LOBBY_TRY(text.remove(*place, is_file ? "name" : "file"));
-  LOBBY_TRY(text.remove(*place, "look"));  // of the mannequin
-  return text.set(*place, key, toml_text(wanted.avatar));
+  const bool is_file = is_file_name(wanted.avatar);
+  LOBBY_TRY(text.set_text(*found, "name", is_file ? "" : wanted.avatar));
+  LOBBY_TRY(text.set_text(*found, "file", is_file ? wanted.avatar : ""));
+  LOBBY_TRY(text.set_text(*found, "look", wanted.look));
+  LOBBY_TRY(text.set_text(*found, "colour", wanted.colour));
+  DANCE_TRY(const HouseConfig house, text.house());
+  // An equal number in another notation stays as it was written.
+  if (settings_of(house).figure_height == wanted.figure_height) return {};
+  return wanted.figure_height == 1.0
+             ? text.remove(*found, "height")
+             : text.set(*found, "height", plain_number(wanted.figure_height));
 }
 
 Result<void> edit_voice(SessionText& text, const LobbySettings& wanted) {
@@ -201,9 +239,16 @@ Result<void> edit_window(SessionText& text, const WindowChoices& now, const Wind
   }
   if (now.partner != wanted.partner)
     LOBBY_TRY(text.set(kWindowTable, "partner", toml_text(wanted.partner)));
+  if (now.band != wanted.band) LOBBY_TRY(text.set_text(kWindowTable, "band", wanted.band));
   if (now.music != wanted.music) LOBBY_TRY(text.set_text(kWindowTable, "music", wanted.music));
   if (now.mirror != wanted.mirror)
     LOBBY_TRY(text.set(kWindowTable, "mirror", wanted.mirror ? "true" : "false"));
+  if (now.letters != wanted.letters)
+    LOBBY_TRY(wanted.letters == 1.0
+                  ? text.remove(kWindowTable, "letters")
+                  : text.set(kWindowTable, "letters", plain_number(wanted.letters)));
+  if (now.place != wanted.place)
+    LOBBY_TRY(text.set(kWindowTable, "place", toml_text(wanted.place)));
   if (now.width_px != wanted.width_px)
     LOBBY_TRY(text.set(kWindowTable, "width", std::to_string(wanted.width_px)));
   if (now.height_px != wanted.height_px)
@@ -214,16 +259,15 @@ Result<void> edit_window(SessionText& text, const WindowChoices& now, const Wind
 // Step by step, each only where something is different.
 Result<void> edit_all(SessionText& text, const LobbySettings& wanted) {
   DANCE_TRY(const HouseConfig before, text.house());
-  LOBBY_TRY(edit_name(text, before, wanted.name));
+  LOBBY_TRY(edit_name(text, before, wanted));
   DANCE_TRY(const HouseConfig house, text.house());
   const LobbySettings now = settings_of(house);
+  if (now.shown_name != wanted.shown_name)
+    LOBBY_TRY(text.set_text(kHouseTable, "shown_name", wanted.shown_name));
   if (now.server != wanted.server) LOBBY_TRY(text.set_text(kHouseTable, "server", wanted.server));
   if (now.room != wanted.room) LOBBY_TRY(text.set(kHouseTable, "room", toml_text(wanted.room)));
-  const bool is_same_source = now.source == wanted.source && now.camera == wanted.camera &&
-                              now.height_m == wanted.height_m &&
-                              now.motion_file == wanted.motion_file && now.leads == wanted.leads;
-  if (!is_same_source) LOBBY_TRY(edit_source(text, now, wanted));
-  if (now.avatar != wanted.avatar) LOBBY_TRY(edit_avatar(text, wanted));
+  if (!has_same_source(now, wanted)) LOBBY_TRY(edit_source(text, now, wanted));
+  if (!has_same_figure(now, wanted)) LOBBY_TRY(edit_avatar(text, wanted));
   const bool is_same_voice =
       now.speaks == wanted.speaks && now.has_headphones == wanted.has_headphones &&
       now.microphone == wanted.microphone && now.loudspeaker == wanted.loudspeaker;
@@ -232,6 +276,17 @@ Result<void> edit_all(SessionText& text, const LobbySettings& wanted) {
 }
 
 #undef LOBBY_TRY
+
+void take_figure(const HostedAvatar& avatar, LobbySettings& settings) {
+  const AvatarChoice& choice = avatar.choice;
+  settings.figure_height = choice.height;
+  const bool is_look = is_look_name(choice.what);
+  if (!is_look) settings.avatar = choice.what;
+  if (!settings.avatar.empty()) return;
+  const bool names_look = !choice.what.empty() && choice.what != kMannequinName;
+  settings.look = names_look ? choice.what : choice.look;
+  settings.colour = choice.colour;
+}
 
 }  // namespace
 
@@ -243,7 +298,11 @@ LobbySettings only_what_counts(const LobbySettings& settings) {
     counts.height_m = plain.height_m;
   }
   if (settings.source != DancerSource::kFile) counts.motion_file = plain.motion_file;
-  if (settings.source != DancerSource::kSynthetic) counts.leads = plain.leads;
+  if (settings.source != DancerSource::kSynthetic) counts.role = plain.role;
+  if (!settings.avatar.empty()) {
+    counts.look = plain.look;
+    counts.colour = plain.colour;
+  }
   if (!settings.speaks) {
     counts.has_headphones = plain.has_headphones;
     counts.microphone = plain.microphone;
@@ -253,7 +312,8 @@ LobbySettings only_what_counts(const LobbySettings& settings) {
 }
 
 bool loses_a_table(const LobbySettings& written, const LobbySettings& later) {
-  return written.source != later.source || (!written.avatar.empty() && later.avatar.empty());
+  const bool loses_source = written.source != later.source && later.source != DancerSource::kWatch;
+  return loses_source || (has_chosen_figure(written) && !has_chosen_figure(later));
 }
 
 LobbySettings settings_of(const HouseConfig& house) {
@@ -263,7 +323,11 @@ LobbySettings settings_of(const HouseConfig& house) {
   settings.window = house.window;
   const GuestId guest = house.guests.empty() ? GuestId() : house.guests.front();
   if (guest.is_set()) settings.name = std::string(guest.view());
-  if (const HostedCamera* camera = of_guest(house.cameras, guest)) {
+  if (const auto shown = house.shown_names.find(guest); shown != house.shown_names.end())
+    settings.shown_name = shown->second.view();
+  if (house.watch) {
+    settings.source = DancerSource::kWatch;
+  } else if (const HostedCamera* camera = of_guest(house.cameras, guest)) {
     settings.source = DancerSource::kCamera;
     settings.camera = camera->device;
     settings.height_m = camera->height_m;
@@ -273,10 +337,9 @@ LobbySettings settings_of(const HouseConfig& house) {
     const bool is_file = producer->kind == HostedProducer::Kind::kReplay;
     settings.source = is_file ? DancerSource::kFile : DancerSource::kSynthetic;
     settings.motion_file = producer->file;
-    settings.leads = is_file || producer->role == "lead";
+    if (!is_file) settings.role = producer->role;
   }
-  if (const HostedAvatar* avatar = of_guest(house.avatars, guest))
-    settings.avatar = avatar->choice.what;
+  if (const HostedAvatar* avatar = of_guest(house.avatars, guest)) take_figure(*avatar, settings);
   if (house.voice && house.voice->enabled) {
     settings.speaks = true;
     settings.has_headphones = house.voice->headphones;
@@ -299,18 +362,12 @@ Result<std::string> edit_settings(std::string_view text, const LobbySettings& wa
   return edited.text();
 }
 
-std::string name_from(std::string_view typed) {
-  std::string name;
-  for (const char c : typed) {
-    const bool is_upper = c >= 'A' && c <= 'Z';
-    const char small = is_upper ? static_cast<char>(c - 'A' + 'a') : c;
-    const bool is_word = (small >= 'a' && small <= 'z') || (small >= '0' && small <= '9');
-    if (is_word) name += small;
-    if (!is_word && !name.empty() && name.back() != '-') name += '-';
-  }
-  name.resize(std::min(name.size(), kMaxGuestIdLength));
-  while (!name.empty() && name.back() == '-') name.pop_back();
-  return GuestId::parse(name) ? name : "";
+std::string name_from(std::string_view typed) { return suggested_guest_id(typed); }
+
+// A server accepts guests whose ids begin with "ana-" with the key of "ana".
+std::string further_name(const std::string& name) {
+  const std::string further = name + "-2";
+  return GuestId::parse(further) ? further : name;
 }
 
 }  // namespace dance

@@ -23,18 +23,23 @@ enum class DancerSource {
   kHeadset,
   kFile,       // a recorded dance stands in
   kSynthetic,  // a made one does
+  kWatch,      // nobody: the guest only watches
   kElsewhere,  // another program or a device, or nobody: as the file says
 };
 
 struct LobbySettings {
-  std::string name = "dancer";
+  std::string name = "dancer";  // the id, to which keys belong
+  std::string shown_name;       // the name that others see; "" = the id
   DancerSource source = DancerSource::kElsewhere;
-  std::string camera;       // "" = the first
-  double height_m = 0.0;    // 0 = not told
-  std::string motion_file;  // of kFile
-  bool leads = true;        // of kSynthetic
-  std::string avatar;       // a name, a file, or words of a look; "" = the mannequin
-  bool speaks = false;      // [voice]
+  std::string camera;          // "" = the first
+  double height_m = 0.0;       // 0 = unknown
+  std::string motion_file;     // of kFile
+  std::string role = "any";    // of kSynthetic: any, lead or follow
+  std::string avatar;          // a name or a file; "" = the mannequin
+  std::string look;            // words of the mannequin's look; "" = derived from the id
+  std::string colour;          // of the mannequin's clothes, "#e04080"; "" = the look's
+  double figure_height = 1.0;  // relative to the dancer's height
+  bool speaks = false;         // [voice]
   bool has_headphones = false;
   std::string microphone;   // "" = the default
   std::string loudspeaker;  // "" = the default
@@ -56,7 +61,9 @@ LobbySettings only_what_counts(const LobbySettings& settings);
 // by hand: not to be done while somebody may only be looking at the choices.
 bool loses_a_table(const LobbySettings& written, const LobbySettings& later);
 
-// A guest's name of whatever was typed: small letters, digits and '-'; "" where nothing is left.
+// Makes a guest's id from typed text: small letters, digits and '-'; "" if nothing is left.
 std::string name_from(std::string_view typed);
+// Another id that the same key allows, such as "ana-2"; the same id if that would be too long.
+std::string further_name(const std::string& name);
 
 }  // namespace dance

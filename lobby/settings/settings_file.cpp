@@ -86,6 +86,14 @@ Result<SettingsFile::Saved> SettingsFile::save(const LobbySettings& settings) {
       text.clear();
     }
   }
+  DANCE_TRY(const std::string wanted, edited(text, settings));
+  if (is_there(path_) && wanted == text) return saved;
+  if (auto written = write_whole_file(path_, wanted); !written)
+    return tl::make_unexpected(written.error());
+  return saved;
+}
+
+Result<std::string> SettingsFile::edited(std::string text, const LobbySettings& settings) const {
   if (text.empty()) {
     std::error_code error;
     fs::create_directories(fs::path(path_).parent_path(), error);
@@ -93,11 +101,25 @@ Result<SettingsFile::Saved> SettingsFile::save(const LobbySettings& settings) {
       return fail(fs::path(path_).parent_path().string() + " cannot be made: " + error.message());
     text = kHeader + ("[house]\nguest = " + toml_text(settings.name) + "\n");
   }
-  DANCE_TRY(const std::string edited, edit_settings(text, settings, path_));
-  if (is_there(path_) && edited == text) return saved;
-  if (auto written = write_whole_file(path_, edited); !written)
+  return edit_settings(text, settings, path_);
+}
+
+std::string SettingsFile::trial_path() const { return path_ + ".trial.toml"; }
+
+Result<std::string> SettingsFile::save_trial(const LobbySettings& settings) const {
+  std::string text;
+  if (is_there(path_)) {
+    DANCE_TRY(text, read_whole_file(path_, kMaxSessionBytes));
+  }
+  DANCE_TRY(const std::string wanted, edited(std::move(text), settings));
+  if (auto written = write_whole_file(trial_path(), wanted); !written)
     return tl::make_unexpected(written.error());
-  return saved;
+  return trial_path();
+}
+
+void SettingsFile::remove_trial() const {
+  std::error_code error;  // ignored: the file may not exist
+  fs::remove(trial_path(), error);
 }
 
 LobbySettings first_settings() {

@@ -35,9 +35,17 @@ class SettingsFile {
   };
   Result<Saved> save(const LobbySettings& settings);
 
+  // Settings that are tried before they are saved: a copy of the file with them, beside it, so that
+  // relative names in it stay valid. Returns its path. A broken file is an error.
+  Result<std::string> save_trial(const LobbySettings& settings) const;
+  void remove_trial() const;
+
   const std::string& path() const { return path_; }
 
  private:
+  std::string trial_path() const;
+  // The file's text with these settings; `text` is what lies there, "" where nothing does.
+  Result<std::string> edited(std::string text, const LobbySettings& settings) const;
   // Renames what lies there; the new name.
   Result<std::string> keep_aside() const;
 

@@ -6,6 +6,8 @@
 #include <exception>
 #include <system_error>
 
+#include "core/program/confinement.h"
+
 namespace dance {
 namespace {
 
@@ -39,7 +41,7 @@ void AvatarJob::run(const AvatarStop& stop) {
       model_ = std::make_shared<const AvatarModel>(std::move(**made));
     }
   } catch (const std::exception& failure) {
-    return give_up(failure.what());  // memory
+    return give_up(unread_because(failure));
   }
   make_ = nullptr;
   is_done_.store(true, std::memory_order_release);
@@ -96,6 +98,7 @@ void AvatarLoader::wait() {
 void AvatarLoader::run() {
   pthread_setname_np(pthread_self(), "view-avatars");
   setpriority(PRIO_PROCESS, 0, kLoadingNiceness);  // of this thread alone
+  confine_thread();                                // avatars come from strangers
   const AvatarStop stop = [this] { return ends_.load(std::memory_order_relaxed); };
   std::unique_lock lock(mutex_);
   while (true) {

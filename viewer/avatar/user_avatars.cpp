@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/program/confinement.h"
 #include "formats/avatar/avatar_reader.h"
 
 namespace dance {
@@ -58,7 +59,7 @@ Result<AvatarOverride> parse_avatar_override(const std::string& text,
   if (std::string shipped = shipped_file(shipped_folder, wish.file); !shipped.empty())
     wish.file = std::move(shipped);
   DANCE_TRY(const AvatarStore::Kept kept, AvatarStore::read_file(wish.file));
-  if (auto read = read_avatar(kept.bytes); !read)
+  if (auto read = run_confined([&] { return read_avatar(kept.bytes); }); !read)
     return fail("--avatar " + wish.file + ": " + read.error().what);
   return wish;
 }

@@ -2,14 +2,16 @@
 
 #include <cmath>
 
+#include "viewer/words/shown_name.h"
+
 namespace dance {
 namespace {
 
 // From when on it is a trouble, and not a moment's.
 constexpr Duration kLinkTold = Duration::s(4);  // it is said once a second
 constexpr Duration kLinkDown = Duration::s(3);
+constexpr Duration kClosed = Duration::s(1);  // a server that restarts is back by then
 constexpr Duration kStill = Duration::s(4);
-constexpr Duration kSlow = Duration::s(5);
 constexpr Duration kMicrophoneSilent = Duration::s(20);
 constexpr Duration kSpeaksMuted = Duration::ms(1500);
 constexpr Duration kClockJumpTold = Duration::s(15);
@@ -41,7 +43,10 @@ void note_link(const BannerFacts& facts, BannerSet& set) {
   note(BannerKind::kRefused, link.trouble == HouseLinkTrouble::kRefused);
   if (is_up) return;
   note(BannerKind::kKeyRefused, link.trouble == HouseLinkTrouble::kWrongKey);
+  note(BannerKind::kServerKeyChanged, link.trouble == HouseLinkTrouble::kServerKeyChanged);
   note(BannerKind::kNotTrusted, link.trouble == HouseLinkTrouble::kNotTrusted);
+  note(BannerKind::kRoomClosed,
+       link.trouble == HouseLinkTrouble::kClosed && facts.link_down > kClosed);
   note(BannerKind::kServerSilent, is_down_for(link.trouble) && facts.link_down > kLinkDown);
 }
 
@@ -53,7 +58,7 @@ BannerSet troubles_of(const BannerFacts& facts) {
   const auto note = [&](BannerKind kind, bool is) { set.set(static_cast<std::size_t>(kind), is); };
   note(BannerKind::kNoPoses, facts.still.is_set() && facts.still_for > kStill);
   note(BannerKind::kRecordingFailed, !facts.recording_trouble.empty());
-  note(BannerKind::kSlowDrawing, facts.slow_for > kSlow);
+  note(BannerKind::kNoSound, facts.lacks_sound);
   note(BannerKind::kNoMicrophone, facts.lacks_microphone);
   note(BannerKind::kMicrophoneSilent, facts.microphone_silent > kMicrophoneSilent);
   note(BannerKind::kSpeaksMuted, facts.speaks_muted > kSpeaksMuted);
@@ -80,6 +85,9 @@ Banner banner_of(BannerKind kind, const BannerFacts& facts, const Texts& texts) 
     case BannerKind::kKeyRefused:
       say(Text::kBannerKey, Text::kBannerKeyCure);
       break;
+    case BannerKind::kServerKeyChanged:
+      say(Text::kBannerServerKey, Text::kBannerServerKeyCure);
+      break;
     case BannerKind::kNotTrusted:
       say(Text::kBannerNotTrusted, Text::kBannerNotTrustedCure);
       break;
@@ -91,22 +99,29 @@ Banner banner_of(BannerKind kind, const BannerFacts& facts, const Texts& texts) 
     case BannerKind::kLinkGone:
       say(Text::kBannerLinkGone, Text::kBannerLinkGoneCure);
       break;
+    case BannerKind::kRoomClosed:
+      say(Text::kBannerRoomClosed, Text::kBannerRoomClosedCure);
+      if (facts.host.is_set()) {
+        banner.what =
+            texts.say(Text::kBannerHostClosed, {shown_name(facts.names, facts.host, texts)});
+        banner.cure = texts[Text::kBannerHostClosedCure];
+      }
+      banner.action = BannerAction::kLeave;
+      break;
     case BannerKind::kServerSilent:
       say(Text::kBannerServer, Text::kBannerServerCure);
       break;
     case BannerKind::kNoPoses:
-      banner.what =
-          texts.say(Text::kBannerNoPoses, {facts.still.view(), seconds_text(facts.still_for)});
+      banner.what = texts.say(Text::kBannerNoPoses, {shown_name(facts.names, facts.still, texts),
+                                                     seconds_text(facts.still_for)});
       banner.cure = texts[Text::kBannerNoPosesCure];
       break;
     case BannerKind::kRecordingFailed:
       banner.what = texts[Text::kBannerRecording];
       banner.cure = facts.recording_trouble;
       break;
-    case BannerKind::kSlowDrawing:
-      banner.what = texts.say(Text::kBannerSlow, {std::to_string(std::lround(facts.pictures_hz))});
-      banner.cure = texts[facts.draws_plainly ? Text::kBannerSlowSmaller : Text::kBannerSlowCure];
-      banner.action = facts.draws_plainly ? BannerAction::kNone : BannerAction::kDrawPlainly;
+    case BannerKind::kNoSound:
+      say(Text::kBannerNoSound, Text::kBannerNoSoundCure);
       break;
     case BannerKind::kNoMicrophone:
       say(Text::kBannerNoMicrophone, Text::kBannerNoMicrophoneCure);

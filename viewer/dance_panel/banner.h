@@ -12,6 +12,7 @@
 #include <string>
 
 #include "core/bus/house_messages.h"
+#include "viewer/words/shown_name.h"
 #include "viewer/words/texts.h"
 
 namespace dance {
@@ -20,13 +21,15 @@ namespace dance {
 enum class BannerKind : std::uint8_t {
   kRemoved,
   kKeyRefused,
+  kServerKeyChanged,
   kNotTrusted,
   kRefused,
   kLinkGone,
+  kRoomClosed,
   kServerSilent,
   kNoPoses,
   kRecordingFailed,
-  kSlowDrawing,
+  kNoSound,
   kNoMicrophone,
   kMicrophoneSilent,
   kSpeaksMuted,
@@ -35,20 +38,23 @@ enum class BannerKind : std::uint8_t {
 };
 constexpr std::size_t kBannerKinds = static_cast<std::size_t>(BannerKind::kCount);
 
-enum class BannerAction : std::uint8_t { kNone, kLeave, kDrawPlainly, kUnmute };
+enum class BannerAction : std::uint8_t { kNone, kLeave, kUnmute };
 
 // What is known of what may be wrong. What is not set is well, or not known.
 struct BannerFacts {
   std::optional<HouseLink> link;  // as it was told last
   Duration link_silent;           // since then
   Duration link_down;             // since it had a session, or since it was heard of first
+  ShownNames names;
+  GuestId host;  // the room's host in another house, kept after the link has lost its session
   // A guest of this house who danced, and since when no pose came.
   GuestId still;
   Duration still_for;
   std::string recording_trouble;  // printable; "" = none
-  Duration slow_for;              // drawn by the processor, below kSlow_hz
+  Duration slow_for;              // for SlowNote
   bool draws_plainly = false;
   float pictures_hz = 60.0f;
+  bool lacks_sound = false;       // a dance voice finds neither of its devices
   bool lacks_microphone = false;  // a dance voice runs, and has none
   Duration microphone_silent;     // heard by the others, and nothing comes from it
   Duration speaks_muted;

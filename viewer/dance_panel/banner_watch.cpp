@@ -11,11 +11,15 @@ constexpr Duration kPauseOfSpeech = Duration::ms(700);
 const BannerFacts& BannerWatch::update(const DanceRecords& records, const SceneState& scene,
                                        const Drawing& drawing, Duration wall, MonoTime now) {
   watch_link(records, now);
+  facts_.names = scene.names;
+  // Host signs expire while the link has no session, so the last host is kept.
+  if (facts_.link && facts_.link->state == HouseLinkState::kConnected) facts_.host = scene.host;
   watch_poses(records, now);
   watch_voice(records, scene, now);
   facts_.pictures_hz = drawing.pictures_hz;
   facts_.draws_plainly = drawing.is_plain;
-  facts_.slow_for = slow_.update(drawing.is_software && drawing.pictures_hz < kSlow_hz, now);
+  facts_.slow_for = slow_.update(
+      drawing.is_software && drawing.is_at_smallest_scale && drawing.pictures_hz < kSlow_hz, now);
   if (!clock_looked_.is_set() || now - clock_looked_ >= kClockLook) {
     clock_looked_ = now;
     if (const auto jump = clock_.look(now, wall)) {
@@ -49,7 +53,8 @@ void BannerWatch::watch_poses(const DanceRecords& records, MonoTime now) {
 // Of this house's voices the first: the keys tell it, too.
 void BannerWatch::watch_voice(const DanceRecords& records, const SceneState& scene, MonoTime now) {
   const SceneVoice* voice = scene.voices.empty() ? nullptr : &scene.voices.front();
-  facts_.lacks_microphone = voice != nullptr && !voice->has_microphone;
+  facts_.lacks_sound = voice != nullptr && voice->has_no_sound();
+  facts_.lacks_microphone = voice != nullptr && !voice->has_microphone && voice->has_loudspeaker;
   const auto level =
       voice != nullptr ? records.level_of(voice->guest, now) : std::optional<VoiceLevel>();
   facts_.microphone_silent =

@@ -12,12 +12,34 @@
 
 namespace dance {
 
+// When the note is shown that this machine draws slowly: once in a window's life, and not before
+// fewer pixels have been tried (viewer/display/render_scale.h).
+class SlowNote {
+ public:
+  static constexpr Duration kSlow = Duration::s(5);
+  static constexpr Duration kShown = Duration::s(15);
+
+  // Once a picture. `was_shown` becomes true when the note appears.
+  bool is_shown(Duration slow_for, bool& was_shown, MonoTime now) {
+    if (!was_shown && slow_for > kSlow) {
+      was_shown = true;
+      until_ = now + kShown;
+    }
+    return until_.is_set() && now < until_;
+  }
+  void close() { until_ = MonoTime(); }
+
+ private:
+  MonoTime until_;  // not set: not shown
+};
+
 class BannerWatch {
  public:
   // What the window knows of itself.
   struct Drawing {
-    bool is_software = false;  // drawn by the processor
-    bool is_plain = false;     // --quality low
+    bool is_software = false;          // drawn by the processor
+    bool is_plain = false;             // --quality low
+    bool is_at_smallest_scale = true;  // viewer/display/render_scale.h has nothing left to try
     float pictures_hz = 60.0f;
   };
 

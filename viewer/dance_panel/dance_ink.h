@@ -76,6 +76,10 @@ inline void text(ImU32 ink, const char* words) {
   ImGui::PopStyleColor();
 }
 
+inline float wrapped_height(const std::string& words, float width) {
+  return ImGui::CalcTextSize(words.c_str(), nullptr, false, width).y;
+}
+
 // The column's width.
 inline float column_width(float em, float window_px) {
   return std::min(21.5f * em, 0.36f * window_px);

@@ -15,10 +15,11 @@
 namespace dance {
 namespace {
 
-constexpr std::array<KeyHelp, 4> kDanceKeys{{{"Esc", "this panel: guests, music, record, leave"},
-                                             {"Up  Down", "in it: one control to the next"},
-                                             {"Left  Right", "in it: softer, louder"},
-                                             {"Enter", "in it: press"}}};
+constexpr std::array<KeyHelp, 5> kDanceKeys{{{"Esc", Text::kDoDancePanel},
+                                             {"Y", Text::kDoMuteMusic},
+                                             {"↑ ↓", Text::kDoControls},
+                                             {"← →", Text::kDoQuieter},
+                                             {"", Text::kDoPress, Text::kKeyEnter}}};
 constexpr float kFewestRows_em = 5.0f;
 constexpr float kMusicStep = 0.05f;
 
@@ -62,8 +63,18 @@ void DancePanel::open(bool is_open) {
 }
 
 bool DancePanel::on_key(const KeyPress& press) {
+  const bool is_enter = press.key == GLFW_KEY_ENTER || press.key == GLFW_KEY_KP_ENTER;
+  if (needs_.wishes.closing == Closing::kAsked && !press.is_repeat &&
+      (is_enter || press.key == GLFW_KEY_ESCAPE)) {
+    answer_closing(is_enter);
+    return true;
+  }
   if (press.key == GLFW_KEY_ESCAPE && !press.is_repeat) {
     open(!is_open_);
+    return true;
+  }
+  if (press.key == GLFW_KEY_Y && !press.has_control) {
+    if (!press.is_repeat) music_.toggle_mute();
     return true;
   }
   return is_open_ && controls_.on_key(press);
@@ -84,12 +95,15 @@ void DancePanel::note_mouse(MonoTime now) {
 
 void DancePanel::work(const PanelFrame& frame) {
   const MonoTime now = frame.scene.time;
+  names_ = frame.scene.names;
   records_.take(needs_.board, now);
   records_.judge(needs_.figures, frame.scene, now);
   recording_.work(now);
+  needs_.board.set_recording(recording_.state() != DanceRecording::State::kIdle);
   watch_.set_recording_trouble(recording_.trouble());
   watch_.update(records_, frame.scene, needs_.drawing, needs_.wall ? needs_.wall() : Duration(),
                 now);
+  arrivals_.work(records_, now);
   removal_.follow(records_.link(), needs_.board, now);
   tell_volumes_anew(frame.scene);
   music_.work(is_open_, now);
@@ -103,7 +117,9 @@ void DancePanel::draw(const PanelFrame& frame) {
   ImGui::PushFont(frame.small_font);
   push_style(frame.small_font->FontSize);
   controls_.begin();
-  draw_banner(frame);
+  draw_arrivals(frame, draw_recorders(frame, draw_banner(frame)));
+  draw_slow_note(frame);
+  draw_closing(frame);
   if (is_open_)
     draw_column(frame);
   else
@@ -172,18 +188,20 @@ void DancePanel::draw_music(const PanelFrame& frame) {
   const auto& music = frame.scene.music;
   if (!music) {
     dance_ink::text(dance_ink::kText, texts_[Text::kDanceNoMusic]);
+    draw_band();
     return;
   }
   const float width = ImGui::GetContentRegionAvail().x;
   const bool has_title = records_.music() && !records_.music()->title.view().empty();
   const std::string title = has_title ? printable(records_.music()->title.view())
-                                      : std::string(texts_[Text::kDanceUntitled]);
+                                      : band_title().value_or(texts_[Text::kDanceUntitled]);
   ImGui::TextUnformatted(dance_ink::fitted(title, width).c_str());
   draw_lamps(*music);
   const std::string bpm = std::to_string(std::lround(60.0 * music->beats_per_second));
   ImGui::SameLine();
   dance_ink::text(dance_ink::kQuiet, texts_.say(Text::kDanceTempo, {bpm}).c_str());
   if (music_.is_there()) draw_music_volume(frame.scene.time);
+  draw_band();
   if (!CountIn::is_possible(music)) return;
   const bool waits = count_in_.is_asked();
   if (controls_.button("count-in", texts_[waits ? Text::kDanceCountWaits : Text::kDanceCountIn])) {
@@ -195,9 +213,11 @@ void DancePanel::draw_music(const PanelFrame& frame) {
 }
 
 void DancePanel::draw_music_volume(MonoTime now) {
-  auto volume = static_cast<float>(music_.volume());
+  auto volume = music_.is_muted() ? 0.0f : static_cast<float>(music_.volume());
   const std::string words =
-      texts_.say(Text::kDanceMusicVolume, {std::to_string(std::lround(100.0f * volume))});
+      music_.is_muted()
+          ? std::string(texts_[Text::kDanceMusicMuted])
+          : texts_.say(Text::kDanceMusicVolume, {std::to_string(std::lround(100.0f * volume))});
   if (controls_.slider("music-volume",
                        ImGui::GetContentRegionAvail().x - 0.3f * ImGui::GetFontSize(), volume, 0.0f,
                        1.0f, kMusicStep, words.c_str()))
@@ -213,6 +233,7 @@ void DancePanel::draw_own(const PanelFrame& frame) {
   }
   const float em = ImGui::GetFontSize();
   const SceneVoice& voice = frame.scene.voices.front();
+  if (voice.has_no_sound()) return dance_ink::text(dance_ink::kFair, texts_[Text::kBannerNoSound]);
   const bool is_off = voice.is_muted || voice.is_deafened;
   const auto level = records_.level_of(voice.guest, frame.scene.time);
   const ImVec2 low = ImGui::GetCursorScreenPos();
@@ -239,7 +260,7 @@ void DancePanel::draw_own(const PanelFrame& frame) {
 void DancePanel::draw_footer(const PanelFrame& frame) {
   const MonoTime now = frame.scene.time;
   ImGui::Separator();
-  if (const std::string words = removal_.words(texts_, now); !words.empty())
+  if (const std::string words = removal_.words(names_, texts_, now); !words.empty())
     dance_ink::text(dance_ink::kText, words.c_str());
   if (!music_.trouble().empty())
     dance_ink::text(dance_ink::kFair, printable(music_.trouble()).c_str());
@@ -261,6 +282,8 @@ void DancePanel::draw_footer(const PanelFrame& frame) {
   } else if (controls_.button("record", texts_[Text::kDanceRecord])) {
     recording_.start(now);
   }
+  ImGui::SameLine();
+  if (controls_.button("picture", texts_[Text::kDancePicture])) needs_.wishes.takes_picture = true;
   const float leave = controls_.width_of(texts_[Text::kLeave]);
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - leave);
   if (controls_.button("leave", texts_[Text::kLeave], PanelControls::Look::kStrong))

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "viewer/dance_panel/arrivals.h"
 #include "viewer/dance_panel/banner_watch.h"
 #include "viewer/dance_panel/count_in.h"
 #include "viewer/dance_panel/dance_records.h"
@@ -37,6 +38,9 @@ struct DanceNeeds {
   // The machine's wall clock, since any zero of its own.
   std::function<Duration()> wall;
   MusicDesk::Needs music = {};
+  // The guest is a synthetic dancer of this house; `role` is "lead", "follow" or "any".
+  std::function<bool(const GuestId& guest)> has_role = {};
+  std::function<Result<void>(const GuestId& guest, std::string_view role)> send_role = {};
 };
 
 class DancePanel : public WindowPanel {
@@ -55,7 +59,7 @@ class DancePanel : public WindowPanel {
   DanceRecords& records() { return records_; }
   const DanceRecording& recording() const { return recording_; }
 
-  std::string_view title() const override { return "In the dance"; }
+  Text title() const override { return Text::kDancePanel; }
   std::span<const KeyHelp> keys() const override;
   bool is_open() const override { return is_open_; }
   bool on_key(const KeyPress& press) override;
@@ -68,7 +72,13 @@ class DancePanel : public WindowPanel {
 
   // dance_panel_over.cpp
   void draw_corner(const PanelFrame& frame);
-  void draw_banner(const PanelFrame& frame);
+  float draw_banner(const PanelFrame& frame);  // its lower edge; 0: there is none
+  void draw_slow_note(const PanelFrame& frame);
+  // Returns its lower edge, or banner_end_px if no other house records.
+  float draw_recorders(const PanelFrame& frame, float banner_end_px) const;
+  void draw_arrivals(const PanelFrame& frame, float banner_end_px) const;
+  void draw_closing(const PanelFrame& frame);
+  void answer_closing(bool closes);
   void draw_count(const PanelFrame& frame) const;
   void draw_column(const PanelFrame& frame);
   void draw_music(const PanelFrame& frame);
@@ -78,11 +88,17 @@ class DancePanel : public WindowPanel {
   void draw_footer(const PanelFrame& frame);
   void act(BannerAction action);
 
+  // dance_panel_band.cpp
+  std::optional<std::string> band_title() const;
+  void draw_band();
+  void draw_roles(const DanceGuest& guest, MonoTime now);
+
   // dance_panel_guests.cpp
   void draw_guests(const PanelFrame& frame, float height);
   void draw_guest(const PanelFrame& frame, const DanceGuest& guest);
   void draw_choices(const PanelFrame& frame, const DanceGuest& guest);
   void draw_removal(const DanceGuest& guest, MonoTime now);
+  std::string removal_question(const DanceGuest& guest) const;
   float guests_height() const;
   float guest_height(const DanceGuest& guest) const;
   void tell_volume(const SceneState& scene, const GuestId& guest);
@@ -92,9 +108,12 @@ class DancePanel : public WindowPanel {
 
   DanceNeeds needs_;
   Texts texts_;
+  ShownNames names_;  // those of the last picture
   DanceRecords records_;
   BannerWatch watch_;
   BannerChoice banners_;
+  SlowNote slow_note_;
+  Arrivals arrivals_;
   DanceRecording recording_;
   MusicDesk music_;
   RemovalDesk removal_;
@@ -103,7 +122,10 @@ class DancePanel : public WindowPanel {
   PanelControls controls_;
   std::vector<const WindowPanel*> rivals_;
   bool is_open_ = false;
-  GuestId chosen_;                 // whose choices are shown
+  GuestId chosen_;      // whose choices are shown
+  GuestId role_guest_;  // the guest that has_role_ was read for
+  MonoTime role_read_;  // when
+  bool has_role_ = false;
   GuestId to_be_removed_;          // asked back about
   bool is_removal_asked_ = false;  // in this picture
   std::string voice_trouble_;      // why a voice could not be told

@@ -8,6 +8,7 @@
 #include "formats/body/guest_look.h"
 #include "viewer/dance_panel/dance_ink.h"
 #include "viewer/dance_panel/dance_panel.h"
+#include "viewer/words/shown_name.h"
 
 namespace dance {
 namespace {
@@ -26,11 +27,32 @@ ImU32 colour_of(const GuestId& guest) {
   return ImGui::ColorConvertFloat4ToU32(ImVec4(s.x(), s.y(), s.z(), 1.0f));
 }
 
-float wrapped_height(const std::string& words, float width) {
-  return ImGui::CalcTextSize(words.c_str(), nullptr, false, width).y;
+// The user's choice for a guest goes before the guest's own state.
+std::optional<Text> mark_text(const DanceGuest& guest, const GuestChoice& choice) {
+  if (choice.is_hidden) return Text::kDanceHidden;
+  if (choice.is_voice_muted) return Text::kDanceMuted;
+  if (!guest.is_remote) return std::nullopt;  // the panel's own part shows that
+  switch (guest.voice_mark) {
+    case VoiceMark::kDeafened:
+      return Text::kDanceHearsNobody;
+    case VoiceMark::kMuted:
+      return Text::kDanceMutedSelf;
+    case VoiceMark::kNoMicrophone:
+      return Text::kDanceNoMicrophone;
+    case VoiceMark::kTalking:
+      return guest.voice > 0.0f ? std::nullopt : std::optional(Text::kDanceTalks);
+    case VoiceMark::kNone:
+    case VoiceMark::kWaiting:
+      break;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
+
+std::string DancePanel::removal_question(const DanceGuest& guest) const {
+  return texts_.say(Text::kDanceRemoveSure, {shown_name(names_, guest.id, texts_)});
+}
 
 bool DancePanel::may_remove() const { return records_.link() && records_.link()->link.may_remove; }
 
@@ -40,14 +62,16 @@ float DancePanel::guest_height(const DanceGuest& guest) const {
   float height = kRow_em * em + gap;
   const std::string words = quality_words(guest.quality.shown(), texts_);
   if (!words.empty())
-    height += gap + wrapped_height(words, ImGui::GetContentRegionAvail().x - kIndent_em * em);
+    height +=
+        gap + dance_ink::wrapped_height(words, ImGui::GetContentRegionAvail().x - kIndent_em * em);
   if (guest.id != chosen_) return height;
   const float line = ImGui::GetFrameHeight() + kChoiceGap_em * em;
   const float width = ImGui::GetContentRegionAvail().x - kIndent_em * em;
   if (guest.id == to_be_removed_)
     return height + line + kChoiceGap_em * em +
-           wrapped_height(texts_.say(Text::kDanceRemoveSure, {guest.id.view()}), width);
-  if (!guest.is_remote) return height + 2.0f * line;
+           dance_ink::wrapped_height(removal_question(guest), width);
+  const bool shows_roles = has_role_ && role_guest_ == guest.id;
+  if (!guest.is_remote) return height + (shows_roles ? 4.0f : 2.0f) * line;
   // As flow() puts the buttons.
   const float between = ImGui::GetStyle().ItemSpacing.x;
   const Text mute = records_.is_voice_muted(guest.id) ? Text::kDanceUnmute : Text::kDanceMute;
@@ -79,10 +103,10 @@ void DancePanel::draw_guests(const PanelFrame& frame, float height) {
 
 void DancePanel::draw_guest(const PanelFrame& frame, const DanceGuest& guest) {
   const float em = ImGui::GetFontSize();
-  const std::string name(guest.id.view());
+  const std::string name(shown_name(names_, guest.id, texts_));
   const GuestChoice& choice = records_.choice_of(guest.id);
   const QualityVerdict& quality = guest.quality.shown();
-  ImGui::PushID(name.c_str());
+  ImGui::PushID(guest.id.c_str());
   const ImVec2 low = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   if (controls_.row("row", kRow_em * em)) {
@@ -95,9 +119,8 @@ void DancePanel::draw_guest(const PanelFrame& frame, const DanceGuest& guest) {
   list.AddCircleFilled({low.x + 1.75f * em, middle}, 0.42f * em, colour_of(guest.id), 24);
   // From the right: the voice's level, or what was chosen.
   float right = low.x + width - 0.2f * em;
-  const char* mark = choice.is_hidden        ? texts_[Text::kDanceHidden]
-                     : choice.is_voice_muted ? texts_[Text::kDanceMuted]
-                                             : nullptr;
+  const std::optional<Text> what = mark_text(guest, choice);
+  const char* mark = what ? texts_[*what] : nullptr;
   if (mark != nullptr) {
     right -= ImGui::CalcTextSize(mark).x;
     list.AddText({std::round(right), std::round(text_y)}, dance_ink::kQuiet, mark);
@@ -108,6 +131,12 @@ void DancePanel::draw_guest(const PanelFrame& frame, const DanceGuest& guest) {
     dance_ink::draw_level(list, {right, middle - 0.16f * em}, {kLevelWidth_em * em, 0.32f * em},
                           guest.voice, dance_ink::kGood);
     right -= 0.5f * em;
+  }
+  const auto& recorders = frame.scene.recorders;
+  if (std::find(recorders.begin(), recorders.end(), guest.id) != recorders.end()) {
+    right -= 0.8f * em;
+    list.AddCircleFilled({right + 0.4f * em, middle}, 0.36f * em, dance_ink::kBad, 20);
+    right -= 0.4f * em;
   }
   const float begin = low.x + kIndent_em * em;
   list.AddText({std::round(begin), std::round(text_y)},
@@ -151,6 +180,7 @@ void DancePanel::draw_choices(const PanelFrame& frame, const DanceGuest& guest) 
     choice.is_hidden = !choice.is_hidden;
     set_hidden(guest.id, choice.is_hidden);
   }
+  draw_roles(guest, frame.scene.time);
   if (guest.is_remote && may_remove()) {
     controls_.flow(controls_.width_of(texts_[Text::kDanceRemove]));
     if (controls_.button("remove", texts_[Text::kDanceRemove])) {
@@ -171,7 +201,7 @@ void DancePanel::draw_choices(const PanelFrame& frame, const DanceGuest& guest) 
 }
 
 void DancePanel::draw_removal(const DanceGuest& guest, MonoTime now) {
-  dance_ink::text(dance_ink::kText, texts_.say(Text::kDanceRemoveSure, {guest.id.view()}).c_str());
+  dance_ink::text(dance_ink::kText, removal_question(guest).c_str());
   if (controls_.button("sure", texts_[Text::kDanceRemove], PanelControls::Look::kWarning)) {
     removal_.remove(guest.id, now);
     to_be_removed_ = chosen_ = GuestId();

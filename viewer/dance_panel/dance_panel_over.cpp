@@ -5,6 +5,7 @@
 
 #include "viewer/dance_panel/dance_ink.h"
 #include "viewer/dance_panel/dance_panel.h"
+#include "viewer/words/shown_name.h"
 
 namespace dance {
 namespace {
@@ -12,6 +13,16 @@ namespace {
 constexpr float kBanner_em = 34.0f;
 constexpr float kLeastBanner_em = 26.0f;
 constexpr Duration kCornerHolds = Duration::s(3);
+constexpr std::size_t kMostNamed = 3;
+
+// "bob, carla", or "bob, carla, dora +4".
+std::string listed(const std::vector<std::string_view>& names) {
+  std::string all;
+  for (std::size_t i = 0; i < std::min(names.size(), kMostNamed); ++i)
+    all += (i > 0 ? ", " : "") + std::string(names[i]);
+  if (names.size() > kMostNamed) all += " +" + std::to_string(names.size() - kMostNamed);
+  return all;
+}
 
 }  // namespace
 
@@ -56,14 +67,13 @@ void DancePanel::draw_corner(const PanelFrame& frame) {
 
 void DancePanel::act(BannerAction action) {
   if (action == BannerAction::kLeave) needs_.wishes.leaves = true;
-  if (action == BannerAction::kDrawPlainly) needs_.wishes.draws_plainly = true;
   if (action == BannerAction::kUnmute) ++needs_.wishes.mute_presses;
 }
 
 // At the top, in the middle of what the column leaves; two lines and a button.
-void DancePanel::draw_banner(const PanelFrame& frame) {
+float DancePanel::draw_banner(const PanelFrame& frame) {
   const auto kind = banners_.choose(watch_.facts());
-  if (!kind) return;
+  if (!kind) return 0.0f;
   const Banner banner = banner_of(*kind, watch_.facts(), texts_);
   const float em = frame.small_font->FontSize, margin = 0.7f * em;
   const float column = is_open_ ? dance_ink::column_width(em, frame.width_px) : 0.0f;
@@ -90,9 +100,7 @@ void DancePanel::draw_banner(const PanelFrame& frame) {
     ImGui::PopStyleColor();
     ImGui::TextUnformatted(banner.cure.c_str());
     ImGui::PopTextWrapPos();
-    const Text label = banner.action == BannerAction::kLeave         ? Text::kLeave
-                       : banner.action == BannerAction::kDrawPlainly ? Text::kDanceDrawPlainly
-                                                                     : Text::kDanceUnmuteMe;
+    const Text label = banner.action == BannerAction::kLeave ? Text::kLeave : Text::kDanceUnmuteMe;
     if (banner.action != BannerAction::kNone &&
         controls_.button("act", texts_[label], PanelControls::Look::kStrong))
       act(banner.action);
@@ -105,6 +113,121 @@ void DancePanel::draw_banner(const PanelFrame& frame) {
     paper.end(banner_px_, dance_ink::kPaper, 0.5f * em);
   }
   ImGui::End();
+  return margin + banner_px_;
+}
+
+// Shown in the middle below the banner while another house records.
+float DancePanel::draw_recorders(const PanelFrame& frame, float banner_end_px) const {
+  if (frame.scene.recorders.empty()) return banner_end_px;
+  std::vector<std::string_view> names;
+  for (const GuestId& guest : frame.scene.recorders)
+    names.push_back(shown_name(names_, guest, texts_));
+  const std::string words = texts_.say(Text::kDanceRecordedBy, {listed(names)});
+  ImFont* const font = frame.small_font;
+  const float em = font->FontSize, y = banner_end_px + 0.7f * em;
+  const float width = font->CalcTextSizeA(em, 1e5f, 0.0f, words.c_str()).x + 1.2f * em;
+  const float x = std::round(0.5f * (frame.width_px - width));
+  ImDrawList& list = *ImGui::GetForegroundDrawList();
+  list.AddRectFilled({x - 0.7f * em, y}, {x + width + 0.7f * em, y + 1.6f * em}, dance_ink::kPaper,
+                     0.8f * em);
+  list.AddCircleFilled({x + 0.4f * em, y + 0.8f * em}, 0.36f * em, dance_ink::kBad, 20);
+  list.AddText(font, em, {x + 1.2f * em, std::round(y + 0.3f * em)}, dance_ink::kText,
+               words.c_str());
+  return y + 1.6f * em;
+}
+
+// Shown in the middle below the banner and the recorders.
+void DancePanel::draw_arrivals(const PanelFrame& frame, float banner_end_px) const {
+  ImFont* const font = frame.large_font;
+  const float size = font->FontSize, margin = 0.7f * frame.small_font->FontSize;
+  float y = banner_end_px + margin;
+  ImDrawList& list = *ImGui::GetForegroundDrawList();
+  for (const Arrivals::Message& message : arrivals_.messages()) {
+    const std::string words = texts_.say(message.has_joined ? Text::kDanceJoined : Text::kDanceLeft,
+                                         {shown_name(names_, message.guest, texts_)});
+    const float width = font->CalcTextSizeA(size, 1e5f, 0.0f, words.c_str()).x;
+    const float x = std::round(0.5f * (frame.width_px - width));
+    list.AddRectFilled({x - 0.8f * size, y}, {x + width + 0.8f * size, y + 1.7f * size},
+                       dance_ink::kPaper, 0.85f * size);
+    list.AddText(font, size, {x, std::round(y + 0.33f * size)},
+                 message.has_joined ? dance_ink::kGood : dance_ink::kText, words.c_str());
+    y += 2.0f * size;
+  }
+}
+
+void DancePanel::answer_closing(bool closes) {
+  needs_.wishes.closing = closes ? Closing::kYes : Closing::kNo;
+}
+
+// Without other guests the room closes without a question.
+void DancePanel::draw_closing(const PanelFrame& frame) {
+  if (needs_.wishes.closing != Closing::kAsked) return;
+  std::vector<std::string_view> names;
+  for (const DanceGuest& guest : records_.guests())
+    if (guest.is_remote) names.push_back(shown_name(names_, guest.id, texts_));
+  if (names.empty()) return answer_closing(true);
+  const float em = frame.large_font->FontSize;
+  const float width = std::min(26.0f * em, frame.width_px - em);
+  const std::string words = texts_.say(Text::kDanceClosing, {listed(names)});
+  ImGui::PushFont(frame.large_font);
+  const float height =
+      dance_ink::wrapped_height(words, width - 2.0f * em) + ImGui::GetFrameHeight() + 3.0f * em;
+  ImGui::SetNextWindowPos(
+      {std::round(0.5f * (frame.width_px - width)), std::round(0.4f * (frame.height_px - height))});
+  ImGui::SetNextWindowSize({width, height});
+  ImGui::SetNextWindowFocus();
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em, em});
+  if (ImGui::Begin("dance-closing", nullptr, dance_ink::kWindow)) {
+    dance_ink::Paper paper(width);
+    dance_ink::text(dance_ink::kText, words.c_str());
+    ImGui::SetCursorPosY(height - ImGui::GetFrameHeight() - em);
+    if (controls_.mouse_button("close-room", texts_[Text::kDanceCloseRoom],
+                               PanelControls::Look::kWarning))
+      answer_closing(true);
+    ImGui::SameLine();
+    if (controls_.mouse_button("stay", texts_[Text::kDanceStay], PanelControls::Look::kStrong))
+      answer_closing(false);
+    paper.end(height, dance_ink::kPaper, 0.5f * em);
+  }
+  ImGui::End();
+  ImGui::PopStyleVar();
+  ImGui::PopFont();
+}
+
+// One line at the bottom, far from names and faces.
+void DancePanel::draw_slow_note(const PanelFrame& frame) {
+  const BannerFacts& facts = watch_.facts();
+  if (!slow_note_.is_shown(facts.slow_for, needs_.wishes.knows_slow_drawing, frame.scene.time))
+    return;
+  const std::string hz = std::to_string(std::lround(facts.pictures_hz));
+  const std::string words =
+      texts_.say(facts.draws_plainly ? Text::kDanceSlowPlain : Text::kDanceSlow, {hz});
+  const float em = frame.small_font->FontSize, gap = 0.6f * em;
+  const float close = controls_.width_of("x");
+  const float act =
+      facts.draws_plainly ? 0.0f : controls_.width_of(texts_[Text::kDanceDrawPlainly]) + gap;
+  const float width = std::min(ImGui::CalcTextSize(words.c_str()).x + act + close + 3.0f * gap,
+                               frame.width_px - 2.0f * gap);
+  const float height = ImGui::GetFrameHeight() + gap;
+  ImGui::SetNextWindowPos(
+      {std::round(0.5f * (frame.width_px - width)), std::round(frame.height_px - height - gap)});
+  ImGui::SetNextWindowSize({width, height});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {gap, 0.5f * gap});
+  if (ImGui::Begin("dance-slow", nullptr, dance_ink::kWindow)) {
+    dance_ink::Paper paper(width);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(dance_ink::fitted(words, width - act - close - 3.0f * gap).c_str());
+    if (!facts.draws_plainly) {
+      ImGui::SameLine(width - close - act - gap);
+      if (controls_.button("plainly", texts_[Text::kDanceDrawPlainly]))
+        needs_.wishes.draws_plainly = true;
+    }
+    ImGui::SameLine(width - close - gap);
+    if (controls_.mouse_button("close-slow", "x", PanelControls::Look::kQuiet)) slow_note_.close();
+    paper.end(height, dance_ink::kPaper, 0.5f * em);
+  }
+  ImGui::End();
+  ImGui::PopStyleVar();
 }
 
 // As large as it can be seen while dancing, above the dancers.

@@ -30,6 +30,15 @@ std::optional<float> where_known(float value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
+// The delay from this guest's link to ours, the server's included. The guest's camera and this
+// machine's drawing do not count.
+std::optional<float> network_delay(const GuestStats& stats) {
+  const float to_server = stats.gap_p50_ms[static_cast<std::size_t>(Hop::kServer)];
+  const float to_link = stats.gap_p50_ms[static_cast<std::size_t>(Hop::kLinkReceived)];
+  if (!std::isfinite(to_link)) return std::nullopt;
+  return to_link + (std::isfinite(to_server) ? to_server : 0.0f);
+}
+
 }  // namespace
 
 const DanceGuest* DanceRecords::find(const GuestId& guest) const {
@@ -45,7 +54,7 @@ DanceGuest* DanceRecords::guest_of(const GuestId& guest, MonoTime now) {
   if (guests_.size() == kMost) return nullptr;
   DanceGuest fresh;
   fresh.id = guest;
-  fresh.came = fresh.present = fresh.moved = now;
+  fresh.came = fresh.present = fresh.named = fresh.moved = now;
   return &*guests_.insert(at, fresh);
 }
 
@@ -56,14 +65,16 @@ void DanceRecords::take(DanceBoard& board, MonoTime now) {
     guest->is_remote = heard->what.remote;
     if (heard->what.received != guest->received) guest->moved = heard->at;
     guest->received = heard->what.received;
-    if (heard->what.alive) guest->present = heard->at;
+    if (heard->what.alive) guest->present = guest->named = heard->at;
   }
   while (const auto heard = board.take_present())
-    if (DanceGuest* guest = guest_of(heard->guest, heard->at)) guest->present = heard->at;
+    if (DanceGuest* guest = guest_of(heard->guest, heard->at))
+      guest->present = guest->named = heard->at;
   while (const auto heard = board.take_level())
     if (levels_.contains(heard->guest) || levels_.size() < kMostLevels)
       levels_[heard->guest] = {heard->what, heard->at};
   if (const Music* music = board.take_music()) music_ = *music;
+  if (const RoomSong* song = board.take_song()) song_ = *song;
   if (const auto* link = board.take_link()) link_ = *link;
   forget_gone(now);
 }
@@ -84,6 +95,7 @@ void DanceRecords::judge(const InstrumentRecords& figures, const SceneState& sce
     const auto shown = std::find_if(scene.guests.begin(), scene.guests.end(),
                                     [&](const SceneGuest& it) { return it.id == guest.id; });
     guest.voice = shown != scene.guests.end() ? shown->voice : 0.0f;
+    guest.voice_mark = shown != scene.guests.end() ? shown->voice_mark : VoiceMark::kNone;
     // A stage may dance on for one who is gone: that figure has its line, too.
     if (shown != scene.guests.end()) guest.present = now;
     QualityFigures measured;
@@ -102,10 +114,11 @@ void DanceRecords::judge(const InstrumentRecords& figures, const SceneState& sce
     if (record != nullptr && record->size() > 0 && now - guest.came > kSettles) {
       const GuestStats& newest = record->newest();
       const bool is_fresh = now - newest.time < Duration::s(3);
-      measured.loss_percent = mean_loss(*record);
-      if (is_fresh) measured.late_ms = where_known(newest.newest_p50_ms);
-      if (is_fresh) measured.jitter_ms = where_known(newest.jitter_ms);
       if (is_fresh) measured.arrival_hz = where_known(newest.arrival_hz);
+      // The network has no part in an own dancer's delay.
+      if (guest.is_remote) measured.loss_percent = mean_loss(*record);
+      if (guest.is_remote && is_fresh) measured.late_ms = network_delay(newest);
+      if (guest.is_remote && is_fresh) measured.jitter_ms = where_known(newest.jitter_ms);
       measured.is_predicted =
           std::isfinite(newest.horizon_p50_ms) && newest.horizon_p50_ms > kPredicted_ms;
     }

@@ -24,11 +24,13 @@ struct DanceGuest {
   GuestId id;
   bool is_remote = true;
   MonoTime came;     // heard of first
-  MonoTime present;  // the link, or the manager of an own guest, named it last
+  MonoTime present;  // the link, or the manager of an own guest, named it last; or it was shown
+  MonoTime named;    // the link or the manager named it last, whether it is shown or not
   MonoTime moved;    // a pose came last
   std::int64_t received = 0;
   QualityMeter quality;
   float voice = 0.0f;  // loudness, 0 = silent to 1
+  VoiceMark voice_mark = VoiceMark::kNone;
 };
 
 // What a person has chosen of a guest, for this window.
@@ -66,6 +68,8 @@ class DanceRecords {
 
   const std::optional<DanceBoard::HeardLink>& link() const { return link_; }
   const std::optional<Music>& music() const { return music_; }
+  // The house band's song.
+  const std::optional<RoomSong>& song() const { return song_; }
   // Of a guest of this house; nothing where none is told.
   std::optional<VoiceLevel> level_of(const GuestId& guest, MonoTime now) const;
 
@@ -82,6 +86,7 @@ class DanceRecords {
   std::map<GuestId, Level> levels_;
   std::optional<DanceBoard::HeardLink> link_;
   std::optional<Music> music_;
+  std::optional<RoomSong> song_;
 };
 
 }  // namespace dance

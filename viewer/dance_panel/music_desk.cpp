@@ -14,9 +14,26 @@ void MusicDesk::work(bool is_shown, MonoTime now) {
 void MusicDesk::set(double volume, MonoTime now) {
   volume_ = std::clamp(volume, 0.0, 1.0);
   changed_ = now;
+  is_muted_ = false;
+  tell(volume_);
+}
+
+void MusicDesk::tell(double volume) {
   trouble_.clear();
   if (!needs_.tell) return;
-  if (const auto told = needs_.tell(volume_); !told) trouble_ = told.error().what;
+  if (const auto told = needs_.tell(volume); !told) trouble_ = told.error().what;
+}
+
+// Without music in this house the key does nothing.
+void MusicDesk::toggle_mute() {
+  if (!needs_.plays_here || !needs_.plays_here()) return;
+  is_muted_ = !is_muted_;
+  tell(is_muted_ ? 0.0 : volume_);
+}
+
+void MusicDesk::control_band(BandRequest request, int style) {
+  trouble_.clear();
+  if (const auto sent = needs_.control_band(request, style); !sent) trouble_ = sent.error().what;
 }
 
 void MusicDesk::keep() {

@@ -7,6 +7,7 @@
 // Failure:      what cannot be told or kept is in trouble().
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -14,6 +15,18 @@
 #include "core/base/time.h"
 
 namespace dance {
+
+// A request to the house band.
+enum class BandRequest : std::uint8_t {
+  kNext,
+  kPlay,
+  kPause,
+  kSlower,
+  kFaster,
+  kStyle,
+  kLock,
+  kUnlock
+};
 
 class MusicDesk {
  public:
@@ -25,6 +38,8 @@ class MusicDesk {
     std::function<Result<void>(double)> tell;
     std::function<Result<void>(double)> keep;
     double volume = 1.0;  // as the session file has it
+    // `style` counts for kStyle only; numbered as in lcmtypes/song_t.lcm.
+    std::function<Result<void>(BandRequest, int style)> control_band = {};
   };
   explicit MusicDesk(Needs needs) : needs_(std::move(needs)), volume_(needs_.volume) {}
 
@@ -32,15 +47,22 @@ class MusicDesk {
   void work(bool is_shown, MonoTime now);
   bool is_there() const { return is_there_; }
   double volume() const { return volume_; }
-  void set(double volume, MonoTime now);
+  void set(double volume, MonoTime now);  // no longer muted
+  // Mutes or unmutes the music of this house. The choice is not saved: the next dance has music.
+  void toggle_mute();
+  bool is_muted() const { return is_muted_; }
+  void control_band(BandRequest request, int style);
   // What has not been kept yet.
   void keep();
   const std::string& trouble() const { return trouble_; }
 
  private:
+  void tell(double volume);
+
   Needs needs_;
   double volume_;
   bool is_there_ = false;
+  bool is_muted_ = false;
   MonoTime looked_, changed_;  // changed_: not set where all is kept
   std::string trouble_;
 };

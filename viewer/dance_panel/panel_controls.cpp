@@ -57,8 +57,8 @@ bool PanelControls::on_key(const KeyPress& press) {
   }
   const bool is_enter =
       press.key == GLFW_KEY_ENTER || press.key == GLFW_KEY_KP_ENTER || press.key == GLFW_KEY_SPACE;
-  if (!is_enter) return false;
-  if (has_keyboard_ && !press.is_repeat) is_pressed_ = true;
+  if (!is_enter || !has_keyboard_) return false;
+  if (!press.is_repeat) is_pressed_ = true;
   return true;
 }
 

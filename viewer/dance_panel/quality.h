@@ -25,7 +25,7 @@ constexpr std::size_t kQualityReasons = 5;
 struct QualityFigures {
   std::optional<float> silent_s{};      // since the newest pose
   std::optional<float> loss_percent{};  // of the last seconds
-  std::optional<float> late_ms{};       // from the newest capture until it was shown
+  std::optional<float> late_ms{};       // delay of the network and its server
   std::optional<float> jitter_ms{};
   std::optional<float> arrival_hz{};
   bool is_predicted = false;  // the stage shows a moment that has not arrived
@@ -64,7 +64,7 @@ class QualityMeter {
   MonoTime other_since_;  // not set: what is measured is what is shown
 };
 
-// Below the guest's name: "the line loses 6 %: gaps are guessed"; "" where it is good.
+// Below the guest's name: "6 % packet loss"; "" where it is good.
 std::string quality_words(const QualityVerdict& verdict, const Texts& texts);
 
 }  // namespace dance

@@ -24,32 +24,62 @@ std::string last_line(const std::string& words) {
   return words.substr(std::min(begin, end), end - std::min(begin, end));
 }
 
-}  // namespace
-
-std::string recording_file(const std::string& folder, const std::tm& local,
-                           const std::function<bool(const std::string&)>& is_taken) {
-  std::array<char, 40> stamp{};
-  std::strftime(stamp.data(), stamp.size(), "dance-%Y-%m-%d-%H%M", &local);
-  const std::string begin = folder + "/" + stamp.data();
-  std::string path = begin + ".lcm";
-  for (int i = 2; is_taken(path) && i < kMostFilesAMinute; ++i)
-    path = begin + "-" + std::to_string(i) + ".lcm";
-  return path;
+// "" for a relative path, as the desktop ignores those.
+std::string folder_in(const Environment& environment, const char* name) {
+  const char* text = environment(name);
+  return text != nullptr && *text == '/' ? text : "";
 }
 
-std::string recordings_folder(const std::function<const char*(const char*)>& environment,
-                              const std::function<bool(const std::string&)>& is_folder) {
-  const auto value = [&](const char* name) {
-    const char* text = environment(name);
-    return std::string(text != nullptr ? text : "");
+}  // namespace
+
+std::optional<std::string> dance_file(const std::string& folder, const std::tm& local,
+                                      std::string_view ending,
+                                      const std::function<bool(const std::string&)>& is_taken) {
+  std::array<char, 40> stamp{};
+  std::strftime(stamp.data(), stamp.size(), "dance-%Y-%m-%d-%H%M", &local);
+  for (int i = 1; i <= kMostFilesAMinute; ++i) {
+    std::string path = folder + "/" + stamp.data();
+    if (i > 1) path += "-" + std::to_string(i);
+    path += ending;
+    if (!is_taken(path)) return path;
+  }
+  return std::nullopt;
+}
+
+Result<std::string> new_dance_file(const std::string& folder, std::string_view ending) {
+  if (folder.empty()) return fail("HOME is not set");
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return fail(folder + ": " + error.message());
+  const std::time_t wall = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm local{};
+  localtime_r(&wall, &local);
+  auto path = dance_file(folder, local, ending, [](const std::string& taken) {
+    std::error_code ignored;
+    return std::filesystem::exists(taken, ignored);
+  });
+  if (!path) return fail("too many files of this minute in " + folder);
+  return std::move(*path);
+}
+
+std::string recordings_folder(const Environment& environment) {
+  const std::string videos = folder_in(environment, "XDG_VIDEOS_DIR");
+  if (!videos.empty()) return videos + "/DanceGraph";
+  const std::string home = folder_in(environment, "HOME");
+  return home.empty() ? "" : home + "/Videos/DanceGraph";
+}
+
+std::vector<std::string> older_recordings_folders(const Environment& environment) {
+  std::vector<std::string> folders;
+  const auto add = [&](const char* name, const char* rest) {
+    const std::string folder = folder_in(environment, name);
+    if (!folder.empty()) folders.push_back(folder + rest);
   };
-  if (const std::string videos = value("XDG_VIDEOS_DIR"); !videos.empty() && videos[0] == '/')
-    return videos;
-  const std::string home = value("HOME");
-  if (!home.empty() && is_folder(home + "/Videos")) return home + "/Videos";
-  if (const std::string data = value("XDG_DATA_HOME"); !data.empty() && data[0] == '/')
-    return data + "/dance/recordings";
-  return home.empty() ? "" : home + "/.local/share/dance/recordings";
+  add("XDG_VIDEOS_DIR", "");
+  add("HOME", "/Videos");
+  add("XDG_DATA_HOME", "/dance/recordings");
+  add("HOME", "/.local/share/dance/recordings");
+  return folders;
 }
 
 void DanceRecording::fail_with(std::string why) {
@@ -63,17 +93,9 @@ void DanceRecording::start(MonoTime now) {
   trouble_.clear();
   words_.clear();
   is_saved_ = false;
-  if (options_.folder.empty()) return fail_with("HOME is not set");
-  std::error_code error;
-  std::filesystem::create_directories(options_.folder, error);
-  if (error) return fail_with(options_.folder + ": " + error.message());
-  const std::time_t wall = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  std::tm local{};
-  localtime_r(&wall, &local);
-  file_ = recording_file(options_.folder, local, [](const std::string& path) {
-    std::error_code ignored;
-    return std::filesystem::exists(path, ignored);
-  });
+  auto path = new_dance_file(options_.folder, ".lcm");
+  if (!path) return fail_with(path.error().what);
+  file_ = std::move(*path);
   auto pipe = ChildPipe::open();
   if (!pipe) return fail_with(pipe.error().what);
   ChildProcess::Options how{options_.program, {"-o", file_, "--packed"}, "/dev/null", ""};
@@ -110,8 +132,7 @@ void DanceRecording::work(MonoTime now) {
   if (state_ == State::kIdle) return;
   read_words();
   if (!program_->has_ended()) {
-    if (state_ == State::kStopping && now - asked_to_stop_ > kEndsWithin)
-      kill(program_->pid(), SIGKILL);
+    if (state_ == State::kStopping && now - asked_to_stop_ > kEndsWithin) program_->kill_now();
     return;
   }
   finish();

@@ -11,20 +11,29 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "core/base/result.h"
 #include "core/base/time.h"
 #include "core/program/child_pipe.h"
 #include "core/program/child_process.h"
 
 namespace dance {
 
-// "dance-2026-11-26-0815.lcm"; with a number behind where `is_taken` says that one is there.
-std::string recording_file(const std::string& folder, const std::tm& local,
-                           const std::function<bool(const std::string&)>& is_taken);
-// Where a person looks for recordings: XDG_VIDEOS_DIR, or Videos in the home folder where that is,
-// else dance/recordings among the user's data. "" where there is no home.
-std::string recordings_folder(const std::function<const char*(const char*)>& environment,
-                              const std::function<bool(const std::string&)>& is_folder);
+// "dance-2026-11-26-0815.lcm" for the ending ".lcm", with a number before it if that is taken.
+// nullopt: more than a hundred in this minute are.
+std::optional<std::string> dance_file(const std::string& folder, const std::tm& local,
+                                      std::string_view ending,
+                                      const std::function<bool(const std::string&)>& is_taken);
+// The path of a file that is to be made now. Makes the folder where it is missing.
+Result<std::string> new_dance_file(const std::string& folder, std::string_view ending);
+using Environment = std::function<const char*(const char*)>;
+// The folder of recordings: DanceGraph in XDG_VIDEOS_DIR, else in ~/Videos. It may be missing.
+// "" where there is no home.
+std::string recordings_folder(const Environment& environment);
+// The folders of earlier versions.
+std::vector<std::string> older_recordings_folders(const Environment& environment);
 
 class DanceRecording {
  public:

@@ -34,10 +34,10 @@ void RemovalDesk::follow(const std::optional<DanceBoard::HeardLink>& link, Dance
   board.ask(guest_, number_);
 }
 
-std::string RemovalDesk::words(const Texts& texts, MonoTime now) const {
+std::string RemovalDesk::words(const ShownNames& names, const Texts& texts, MonoTime now) const {
   if (stage_ == Stage::kNone || now - changed_ > kWordsHold) return {};
   if (stage_ == Stage::kUnheard) return texts[Text::kDanceRemoveUnheard];
-  const std::string_view name = guest_.view();
+  const std::string_view name = shown_name(names, guest_, texts);
   switch (verdict_) {
     case RemovalVerdict::kAsked:
       return texts.say(Text::kDanceRemoveAsked, {name});

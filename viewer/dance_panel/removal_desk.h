@@ -10,7 +10,7 @@
 #include <string>
 
 #include "viewer/dance_panel/dance_board.h"
-#include "viewer/words/texts.h"
+#include "viewer/words/shown_name.h"
 
 namespace dance {
 
@@ -24,7 +24,7 @@ class RemovalDesk {
   // Once a picture, with what the link told last.
   void follow(const std::optional<DanceBoard::HeardLink>& link, DanceBoard& board, MonoTime now);
   // "" where there is nothing to say.
-  std::string words(const Texts& texts, MonoTime now) const;
+  std::string words(const ShownNames& names, const Texts& texts, MonoTime now) const;
 
  private:
   enum class Stage : std::uint8_t { kNone, kAsking, kHeard, kUnheard };

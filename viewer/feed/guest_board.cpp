@@ -170,6 +170,7 @@ void GuestBoard::clear(std::uint64_t clock_id) {
     slot.beat_meter = slot.arriving_beat_meter = BeatMeter();
     slot.last_heard = slot.capture_heard = slot.status_heard = slot.reached = MonoTime();
   }
+  chat_.clear();
   music_ = MusicHere(clock_id);
   music_latest_.put(music_.clock());
 }
@@ -217,12 +218,32 @@ void GuestBoard::on_avatar(const GuestId& guest, const AvatarFile& file, MonoTim
   if (Slot* slot = slot_of(guest, now)) slot->news.wish.file = file.hash;
 }
 
+void GuestBoard::on_remote_voice_state(const GuestId& guest, const VoiceState& state,
+                                       MonoTime now) {
+  Slot* slot = slot_of(guest, now);
+  if (slot == nullptr) return;
+  slot->news.voice_state = state;
+  slot->news.voice_state_heard = now;
+  slot->latest.put(slot->news);
+}
+
 // Shown with the next pose too: a voice is shown at a tag, and a tag needs a dancer.
 void GuestBoard::on_voice(const GuestId& guest, const Voice& voice, MonoTime now) {
   Slot* slot = slot_of(guest, now);
   if (slot == nullptr) return;
   slot->news.voice_dbfs = voice.level_dbfs;
   slot->news.voice_heard = now;
+}
+
+// A line or sign keeps the time at which it was written, but is never later than its arrival.
+void GuestBoard::on_chat(const GuestId& guest, const Chat& chat, MonoTime now) {
+  const MonoTime written = chat.clock_id == clock_id_ ? std::min(chat.time, now) : now;
+  if (chat.is_line()) return chat_.on_line({guest, chat.text, written});
+  Slot* slot = slot_of(guest, now);
+  if (slot == nullptr) return;
+  slot->news.sign = chat.kind;
+  slot->news.sign_shown = written;
+  slot->latest.put(slot->news);
 }
 
 void GuestBoard::on_beat(const Beat& beat) {

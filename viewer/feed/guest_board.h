@@ -22,6 +22,8 @@
 #include "core/bus/voice.h"
 #include "core/pose/music_here.h"
 #include "viewer/feed/arrival_meter.h"
+#include "viewer/feed/chat_board.h"
+#include "viewer/feed/profile_board.h"
 #include "viewer/feed/voice_board.h"
 #include "viewer/scene/scene.h"
 
@@ -49,7 +51,11 @@ struct GuestNews {
   AvatarWish wish;
   GuestFigures figures;
   int voice_dbfs = kSilence_dbfs;
-  MonoTime voice_heard;  // not set: none
+  MonoTime voice_heard;        // not set: none
+  VoiceState voice_state;      // of a guest of another house
+  MonoTime voice_state_heard;  // not set: none
+  ChatKind sign = ChatKind::kHeart;
+  MonoTime sign_shown;  // not set: none
 };
 
 class GuestBoard {
@@ -70,9 +76,15 @@ class GuestBoard {
   void on_avatar(const GuestId& guest, const AvatarFile& file, MonoTime now);
   void on_status(const GuestId& guest, const GuestStatus& status, MonoTime now);
   void on_voice(const GuestId& guest, const Voice& voice, MonoTime now);
+  // Guests of this house, and guests of others.
   void on_voice_state(const GuestId& guest, const VoiceState& state, MonoTime now) {
     voices_.on_state(guest, state, now);
   }
+  void on_remote_voice_state(const GuestId& guest, const VoiceState& state, MonoTime now);
+  void on_profile(Where where, const GuestId& guest, const Profile& profile, MonoTime now) {
+    profiles_.on_profile(guest, where == Where::kGuest, profile, now);
+  }
+  void on_chat(const GuestId& guest, const Chat& chat, MonoTime now);
   void on_beat(const Beat& beat);
 
   // Of a recording, with one thread for all. Forgets everything: what follows is of another moment.
@@ -95,6 +107,10 @@ class GuestBoard {
   const BeatClock* take_music() { return music_latest_.take(); }
   // As take(), of this house's voices.
   const VoiceBoard::Voices* take_voices() { return voices_.take(); }
+  // Returns the guests' profiles, as take() does.
+  const ProfileBoard::Profiles* take_profiles() { return profiles_.take(); }
+  // Returns the newest lines of chat, as take() does.
+  const ChatBoard::Lines* take_lines() { return chat_.take(); }
 
   std::uint64_t poses() const { return poses_.load(std::memory_order_relaxed); }
   std::uint64_t no_room() const { return no_room_.load(std::memory_order_relaxed); }
@@ -139,6 +155,8 @@ class GuestBoard {
   MusicHere music_;  // the bus thread's
   Latest<BeatClock> music_latest_;
   VoiceBoard voices_;
+  ProfileBoard profiles_;
+  ChatBoard chat_;
   std::atomic<std::uint64_t> poses_{0};
   std::atomic<std::uint64_t> no_room_{0};
   std::uint32_t epoch_ = 0;
@@ -159,6 +177,7 @@ void GuestBoard::Slot::carry(Archive& archive, bool has_samples, bool has_arrivi
 template <class Archive, class HasSamples>
 void GuestBoard::carry(Archive& archive, HasSamples has_samples) {
   music_.carry(archive);
+  chat_.carry(archive);
   for (std::size_t i = 0; i < kMaxGuests; ++i) {
     Slot& slot = slots_[i];
     archive(slot.news.id);

@@ -15,6 +15,9 @@ namespace dance {
 
 namespace {
 
+// The link publishes the room's song once a second.
+constexpr Duration kRoomSong = Duration::ms(3500);
+
 bool is_shown(const FeedOptions& options, Where where) {
   switch (options.shown) {
     case Shown::kBest:
@@ -47,7 +50,8 @@ StageFeed::StageFeed(const FeedOptions& options)
       instruments_(this_clock_id()),
       begin_(mono_now()) {
   hidden_.clock_id = this_clock_id();
-  hidden_.viewer = secure_random_u64() | 1;
+  hidden_.viewer = recording_.viewer = secure_random_u64() | 1;
+  recording_.clock_id = this_clock_id();
 }
 
 Result<std::unique_ptr<StageFeed>> StageFeed::create(const FeedOptions& options) {
@@ -55,6 +59,7 @@ Result<std::unique_ptr<StageFeed>> StageFeed::create(const FeedOptions& options)
   DANCE_TRY(feed->poller_, Poller::create());
   if (auto stops = feed->poller_->stop_on_signals(); !stops) return fail(stops.error().what);
   DANCE_TRY(feed->bus_, Bus::open(options.bus_url));
+  feed->port_ = std::make_unique<HousePublisher>(*feed->bus_, feed->bus_->url(), *feed->poller_);
   feed->wake_fd_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
   if (feed->wake_fd_ < 0) return fail(std::string("no eventfd: ") + std::strerror(errno));
   if (options.shown == Shown::kGuest) feed->board_.show_guest_channel();
@@ -102,8 +107,16 @@ void StageFeed::subscribe(const FeedOptions& options) {
           instruments_.on_skeleton(channel.guest(), skeleton.skeleton);
         });
   }
-  // Guests of this house choose and speak at the capture; those of others come through the tunnel.
+  // Choices, voices and lines of this house's guests are on capture channels; those of other houses
+  // arrive through the tunnel.
   for (const Where where : {Where::kCapture, Where::kGuest}) {
+    bus_->subscribe<Chat>(where, [this](const Channel& channel, const Chat& chat, MonoTime now) {
+      board_.on_chat(channel.guest(), chat, now);
+    });
+    bus_->subscribe<Profile>(where,
+                             [this](const Channel& channel, const Profile& profile, MonoTime now) {
+                               board_.on_profile(channel.where(), channel.guest(), profile, now);
+                             });
     bus_->subscribe<Voice>(
         where,
         [this](const Channel& channel, const Voice& voice, MonoTime now) {
@@ -122,6 +135,10 @@ void StageFeed::subscribe(const FeedOptions& options) {
   bus_->subscribe<VoiceState>(
       Where::kCapture, [this](const Channel& channel, const VoiceState& state, MonoTime now) {
         board_.on_voice_state(channel.guest(), state, now);
+      });
+  bus_->subscribe<VoiceState>(
+      Where::kGuest, [this](const Channel& channel, const VoiceState& state, MonoTime now) {
+        board_.on_remote_voice_state(channel.guest(), state, now);
       });
   bus_->subscribe<Beat>(Where::kLocal, [this](const Channel&, const Beat& beat, MonoTime) {
     board_.on_beat(beat);
@@ -176,6 +193,17 @@ void StageFeed::hear_house() {
   bus_->subscribe<Music>(Where::kRoom, [this](const Channel&, const Music& music, MonoTime) {
     dance_.on_music(music);
   });
+  // A house alone has only its own song; in a room that one is a request.
+  bus_->subscribe<RoomSong>(Where::kRoom,
+                            [this](const Channel&, const RoomSong& song, MonoTime now) {
+                              room_song_at_ = now;
+                              dance_.on_song(song);
+                            });
+  bus_->subscribe<RoomSong>(Where::kCapture,
+                            [this](const Channel&, const RoomSong& song, MonoTime now) {
+                              if (!room_song_at_.is_set() || now - room_song_at_ > kRoomSong)
+                                dance_.on_song(song);
+                            });
   bus_->subscribe<HouseLink>(Where::kLocal,
                              [this](const Channel&, const HouseLink& link, MonoTime now) {
                                if (link.clock_id == this_clock_id()) dance_.on_link(link, now);
@@ -184,17 +212,26 @@ void StageFeed::hear_house() {
 
 // What a panel asks for.
 void StageFeed::publish_asked() {
+  if (dance_.is_recording() != recording_.is_recording) {
+    recording_.is_recording = dance_.is_recording();
+    publish_recording(mono_now());
+  }
   if (const DanceBoard::HiddenGuests* hidden = dance_.take_hidden()) {
     hidden_.hidden = *hidden;
     publish_hidden(mono_now());
   }
   while (const auto asked = dance_.take_asked())
-    bus_->publish(Channel::of_house(Signal::kRemoval),
-                  Removal{mono_now(), this_clock_id(), asked->what, asked->guest});
+    port_->publish(Channel::of_house(Signal::kRemoval),
+                   Removal{mono_now(), this_clock_id(), asked->what, asked->guest});
+  while (auto written = dance_.take_written()) {
+    written->what.time = mono_now();
+    written->what.clock_id = this_clock_id();
+    port_->publish(Where::kCapture, written->guest, written->what);
+  }
   while (const auto asked = instruments_.take_asked_flow())
-    bus_->publish(Where::kCapture, asked->guest, asked->what);
+    port_->publish(Where::kCapture, asked->guest, asked->what);
   while (const auto asked = instruments_.take_asked_style())
-    bus_->publish(Where::kCapture, asked->guest, asked->what);
+    port_->publish(Where::kCapture, asked->guest, asked->what);
 }
 
 void StageFeed::publish_figures(MonoTime now) {
@@ -211,7 +248,7 @@ void StageFeed::publish_counters(MonoTime now) {
   stats.time = now;
   stats.clock_id = this_clock_id();
   stats.uptime = now - begin_;
-  stats.dropped_invalid = static_cast<std::int64_t>(bus_->counters().invalid);
+  stats.dropped_invalid = static_cast<std::int64_t>(bus_->counters().refused());
   stats.dropped_overflow = static_cast<std::int64_t>(board_.no_room());
   stats.received =
       static_cast<std::int64_t>(board_.poses()) + stats.dropped_invalid + stats.dropped_overflow;
@@ -220,12 +257,18 @@ void StageFeed::publish_counters(MonoTime now) {
       std::max<std::int64_t>(0, static_cast<std::int64_t>(board_.poses()) - shown_count_);
   bus_->publish(Channel::of_program(Signal::kStats, "view"), stats);
   publish_hidden(now);
+  if (recording_.is_recording) publish_recording(now);
+}
+
+void StageFeed::publish_recording(MonoTime now) {
+  recording_.time = now;
+  port_->publish(Channel::of_house(Signal::kRecording), recording_);
 }
 
 // Also where nobody is hidden here: poses go on coming, though another window hides the guest.
 void StageFeed::publish_hidden(MonoTime now) {
   hidden_.time = now;
-  bus_->publish(Channel::of_house(Signal::kInterest), hidden_);
+  port_->publish(Channel::of_house(Signal::kInterest), hidden_);
 }
 
 void StageFeed::run() {

@@ -16,6 +16,7 @@
 
 #include "core/base/spsc_ring.h"
 #include "core/bus/bus.h"
+#include "core/control/house_publisher.h"
 #include "core/net/poller.h"
 #include "viewer/dance_panel/dance_board.h"
 #include "viewer/feed/guest_board.h"
@@ -64,15 +65,19 @@ class StageFeed {
   void publish_figures(MonoTime now);
   void publish_counters(MonoTime now);
   void publish_hidden(MonoTime now);
+  void publish_recording(MonoTime now);
   void run();
   void on_wake();
 
   std::unique_ptr<Poller> poller_;
   std::unique_ptr<Bus> bus_;
+  std::unique_ptr<HousePublisher> port_;  // bus and houses
   GuestBoard board_;
   InstrumentBoard instruments_;
   DanceBoard dance_;
-  InterestWish hidden_;  // as it was said last
+  InterestWish hidden_;       // as published last
+  RecordingState recording_;  // as published last
+  MonoTime room_song_at_;     // when the room's song arrived last
   MonoTime begin_, counted_;
   std::int64_t shown_count_ = 0;
   SpscRing<ShownPose, 512> shown_;

@@ -8,6 +8,7 @@ constexpr Duration kSilenceBeforeFading = Duration::s(3);
 constexpr Duration kFade = Duration::ms(800);
 constexpr Duration kHandsHold = Duration::s(1);
 constexpr Duration kFaceHolds = Duration::s(1);
+constexpr Duration kSignHolds = Duration::seconds(kSignHolds_s);
 
 float opacity_after(Duration silence) {
   if (silence <= kSilenceBeforeFading) return 1.0f;
@@ -22,6 +23,13 @@ float loudness_of(int level_dbfs) {
   return std::clamp((static_cast<float>(level_dbfs) + 55.0f) / 40.0f, 0.0f, 1.0f);
 }
 
+VoiceMark mark_of_remote(const VoiceState& state) {
+  if (state.is_deafened) return VoiceMark::kDeafened;
+  if (state.is_muted) return VoiceMark::kMuted;
+  if (!state.has_microphone) return VoiceMark::kNoMicrophone;
+  return state.is_heard ? VoiceMark::kTalking : VoiceMark::kNone;
+}
+
 void compare_in(const GuestNews& known, MonoTime now, SceneGuest& guest) {
   const auto holds = [&](MonoTime heard) {
     return heard.is_set() && now - heard < kSilenceBeforeFading;
@@ -31,6 +39,20 @@ void compare_in(const GuestNews& known, MonoTime now, SceneGuest& guest) {
     guest.arriving_beat = known.arriving_beat;
   }
   if (holds(known.staged_heard)) guest.staged = known.staged;
+}
+
+void sign_in(const GuestNews& known, MonoTime now, SceneGuest& guest) {
+  const Duration age = now - known.sign_shown;
+  if (!known.sign_shown.is_set() || age < Duration() || age >= kSignHolds) return;
+  guest.sign = known.sign == ChatKind::kApplause ? DanceSign::kApplause : DanceSign::kHeart;
+  guest.sign_age_s = static_cast<float>(age.as_seconds());
+}
+
+bool have_same_names(const ProfileBoard::Profiles& a, const ProfileBoard::Profiles& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const SeenProfile& one, const SeenProfile& other) {
+                      return one.guest == other.guest && one.name == other.name;
+                    });
 }
 
 }  // namespace
@@ -74,6 +96,9 @@ void StageRoster::update(MonoTime now, SceneState& scene) {
     guest.figures = known.figures;
     if (known.voice_heard.is_set() && now - known.voice_heard < kVoiceHolds)
       guest.voice = loudness_of(known.voice_dbfs);
+    if (known.voice_state_heard.is_set() && now - known.voice_state_heard < VoiceBoard::kHolds)
+      guest.voice_mark = mark_of_remote(known.voice_state);
+    sign_in(known, now, guest);
     compare_in(known, now, guest);
     scene.guests.push_back(guest);
   }
@@ -85,6 +110,46 @@ void StageRoster::update(MonoTime now, SceneState& scene) {
   std::sort(scene.guests.begin(), scene.guests.end(),
             [](const SceneGuest& a, const SceneGuest& b) { return a.id < b.id; });
   update_voices(now, scene);
+  update_lines(scene);
+  update_profiles(now, scene);
+}
+
+// Comparing all names is quadratic, and profiles are repeated once a second. The names are made
+// again only after a name or the set of guests has changed.
+void StageRoster::update_profiles(MonoTime now, SceneState& scene) {
+  std::vector<GuestId> ids;
+  for (const SceneGuest& guest : scene.guests) ids.push_back(guest.id);
+  const ProfileBoard::Profiles* news = board_.take_profiles();
+  const bool has_new_name = news != nullptr && !have_same_names(profiles_, *news);
+  if (news != nullptr) profiles_ = *news;
+  if (has_new_name || ids != named_beside_) {
+    std::vector<ShownNames::Named> named;
+    for (const SeenProfile& seen : profiles_)
+      if (!seen.name.empty()) named.push_back({seen.guest, seen.name});
+    names_ = ShownNames(named, ids);
+    named_beside_ = std::move(ids);
+  }
+  scene.names = names_;
+  scene.recorders.clear();
+  scene.host = GuestId();
+  int hosts = 0;
+  for (const SeenProfile& seen : profiles_) {
+    if (!seen.is_remote || now - seen.received > ProfileBoard::kSignsHold) continue;
+    if (seen.is_host) scene.host = ++hosts == 1 ? seen.guest : GuestId();
+    if (!seen.is_recording) continue;
+    scene.recorders.push_back(seen.guest);
+    for (SceneGuest& guest : scene.guests)
+      if (guest.id == seen.guest) guest.is_recording = true;
+  }
+}
+
+void StageRoster::update_lines(SceneState& scene) {
+  if (const ChatBoard::Lines* lines = board_.take_lines()) {
+    lines_.clear();
+    for (const ChatLine& line : *lines)
+      lines_.push_back({line.guest, std::string(line.text.view()), line.written});
+  }
+  scene.lines = lines_;
 }
 
 void StageRoster::update_voices(MonoTime now, SceneState& scene) {
@@ -94,7 +159,7 @@ void StageRoster::update_voices(MonoTime now, SceneState& scene) {
     if (now - said.heard > VoiceBoard::kHolds) continue;
     const VoiceState& state = said.state;
     scene.voices.push_back({said.guest, state.is_muted, state.is_deafened, state.is_push_to_talk,
-                            state.is_heard, state.has_microphone});
+                            state.is_heard, state.has_microphone, state.has_loudspeaker});
     for (SceneGuest& guest : scene.guests)
       if (guest.id == said.guest) guest.voice_mark = mark_of(scene.voices.back());
   }

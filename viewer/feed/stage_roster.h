@@ -19,7 +19,8 @@ class StageRoster {
  public:
   explicit StageRoster(GuestBoard& board);
 
-  // Takes what is new and fills scene.guests, sorted by name, scene.music and scene.voices.
+  // Reads the board's updates and fills scene.guests, sorted by id, scene.music, scene.voices,
+  // scene.lines, scene.names, scene.recorders and scene.host.
   void update(MonoTime now, SceneState& scene);
 
   // The guests whose pose was new in the last update().
@@ -33,10 +34,16 @@ class StageRoster {
 
  private:
   void update_voices(MonoTime now, SceneState& scene);
+  void update_lines(SceneState& scene);
+  void update_profiles(MonoTime now, SceneState& scene);
 
   GuestBoard& board_;
   BeatClock music_;
   VoiceBoard::Voices voices_;
+  std::vector<SceneLine> lines_;
+  ProfileBoard::Profiles profiles_;
+  ShownNames names_;
+  std::vector<GuestId> named_beside_;  // the guests of the picture for which names_ was made
   std::vector<GuestNews> guests_;
   std::vector<Fresh> fresh_;
   std::uint32_t epoch_ = 0;  // of the board

@@ -176,4 +176,17 @@ void drive_twists(const AvatarRig& rig, std::span<DriverPose> drivers) {
   }
 }
 
+void drive_eyes(const AvatarRig& rig, const std::array<float, 2>& gaze_rad,
+                std::span<DriverPose> drivers) {
+  const Quaternionf turned =
+      about(Vector3f::UnitY(), gaze_rad[0]) * about(Vector3f::UnitX(), -gaze_rad[1]);
+  for (const int eye : rig.shape->eyes) {
+    if (eye < 0) continue;
+    const auto driver = static_cast<std::size_t>(eye);
+    const std::size_t leader = rig.shape->leaders[driver - kFirstFreeDriver];
+    drivers[driver] = following(rig, driver, leader, drivers[leader]);
+    drivers[driver].D = (drivers[leader].D * turned).normalized();
+  }
+}
+
 }  // namespace dance

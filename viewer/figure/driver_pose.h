@@ -41,6 +41,9 @@ void drive_bones(FigureFit& fit, const ForearmTwists& twists, bool shares_twist,
 void drive_fingers(const AvatarRig& rig, const Hands* hands, const BodyFrames& frames,
                    std::span<DriverPose> drivers);
 void drive_twists(const AvatarRig& rig, std::span<DriverPose> drivers);
+// Turns the eyes that have nodes of their own; radians to the dancer's left and up.
+void drive_eyes(const AvatarRig& rig, const std::array<float, 2>& gaze_rad,
+                std::span<DriverPose> drivers);
 
 // A driver that only follows its leader.
 DriverPose following(const AvatarRig& rig, std::size_t driver, std::size_t leader,

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "viewer/figure/blink.h"
 #include "viewer/figure/driver_pose.h"
+#include "viewer/figure/face/living_face.h"
 #include "viewer/figure/foot_fit.h"
 #include "viewer/figure/spring_chain.h"
 
@@ -50,14 +50,24 @@ struct FigurePoser::Rig {
            height_scale == guest.height_scale && skeleton == guest.skeleton;
   }
 
-  // To the picture of `now`: what is kept counts only if that is not long ago.
+  // To the picture of `now`: what is kept counts only if that is not long ago. Another picture of
+  // the same moment starts from the same past, as its roundings would add up otherwise.
   void go_on(MonoTime now) {
+    if (time.is_set() && now == time) {
+      twists = twists_before;
+      contacts = contacts_before;
+      face = face_before;
+      return;
+    }
     const Duration passed = now - time;
     goes_on = time.is_set() && passed >= Duration() && passed <= kLongestPicture;
     if (!goes_on) twists.is_known = false;
-    contacts.is_known = goes_on;
-    contacts.passed_s = static_cast<float>(passed.as_seconds());
+    contacts.is_known = face.is_known = goes_on;
+    contacts.passed_s = face.passed_s = static_cast<float>(passed.as_seconds());
     time = now;
+    twists_before = twists;
+    contacts_before = contacts;
+    face_before = face;
   }
 
   GuestId id;
@@ -68,8 +78,9 @@ struct FigurePoser::Rig {
   AvatarRig rig;
   std::vector<DriverPose> drivers;
   std::vector<Matrix3f> linears;
-  ForearmTwists twists;
-  ContactPast contacts;
+  ForearmTwists twists, twists_before;  // before the picture of `time`
+  ContactPast contacts, contacts_before;
+  FacePast face, face_before;
   SpringChains springs;
   MonoTime time;
   bool goes_on = false;
@@ -118,6 +129,8 @@ std::span<const PosedFigure> FigurePoser::pose(const SceneState& scene) {
   for (const SceneGuest& guest : scene.guests) count += is_shown(guest);
   fits_.reserve(count);
   contacts_.reserve(count);
+  views_.clear();
+  views_.reserve(count);
   if (figures_.size() < count) figures_.resize(count);
   for (const SceneGuest& guest : scene.guests) {
     if (!is_shown(guest)) continue;
@@ -134,21 +147,23 @@ std::span<const PosedFigure> FigurePoser::pose(const SceneState& scene) {
   for (FigureFit& fit : fits_) append_tips(*fit.rig, fit.frames);
   if (options_.fits_hands) contacts_.fit(fits_);
   spring_work_left_ = options_.most_spring_work;
+  for (const SceneGuest& guest : scene.guests)
+    if (is_shown(guest)) views_.push_back(view_of(guest, fits_[views_.size()]));
   std::size_t place = 0;
   for (const SceneGuest& guest : scene.guests)
-    if (is_shown(guest)) {
-      show(guest, scene, *rigs_[place], fits_[place], figures_[place]);
-      ++place;
-    }
+    if (is_shown(guest)) show(guest, scene, place++);
   return {figures_.data(), count};
 }
 
-void FigurePoser::show(const SceneGuest& guest, const SceneState& scene, Rig& rig, FigureFit& fit,
-                       PosedFigure& figure) {
+void FigurePoser::show(const SceneGuest& guest, const SceneState& scene, std::size_t place) {
+  Rig& rig = *rigs_[place];
+  FigureFit& fit = fits_[place];
+  PosedFigure& figure = figures_[place];
   const AvatarShape& shape = *rig.rig.shape;
   drive_bones(fit, rig.twists, options_.shares_twist, rig.drivers);
   drive_fingers(rig.rig, guest.hands ? &*guest.hands : nullptr, fit.frames, rig.drivers);
   drive_twists(rig.rig, rig.drivers);
+  drive_eyes(rig.rig, show_face(guest, scene, place), rig.drivers);
   if (rig.springs.work() <= spring_work_left_) {
     spring_work_left_ -= rig.springs.work();
     rig.springs.swing(rig.rig, scene.time, rig.drivers);
@@ -179,18 +194,18 @@ void FigurePoser::show(const SceneGuest& guest, const SceneState& scene, Rig& ri
     figure.W_from_joint[j].col(3) =
         rig.drivers[follower.driver].place_W_m + linear * follower.place_m;
   }
-  figure.morph_weights.assign(rig.model->morphs.size(), 0.0f);
-  // A face that is seen moves its own lids.
-  if (guest.face && !shape.face.is_empty()) {
-    shape.face.add(*guest.face, figure.morph_weights);
-    return;
-  }
-  // Eyes are open in a picture that stands alone.
-  const float blink = shape.blink >= 0 && rig.goes_on ? blink_at(guest.id, scene.time) : 0.0f;
-  if (blink > 0.0f)
-    for (const auto& bind : rig.model->expressions[static_cast<std::size_t>(shape.blink)].binds)
-      figure.morph_weights[bind.morph] =
-          std::clamp(figure.morph_weights[bind.morph] + blink * bind.weight, 0.0f, 1.0f);
+}
+
+std::array<float, 2> FigurePoser::show_face(const SceneGuest& guest, const SceneState& scene,
+                                            std::size_t place) {
+  Rig& rig = *rigs_[place];
+  std::vector<float>& weights = figures_[place].morph_weights;
+  weights.assign(rig.model->morphs.size(), 0.0f);
+  const AvatarShape& shape = *rig.rig.shape;
+  if (!shape.has_face()) return {};
+  const Face face = face_of(guest, views_, place, scene.time, rig.face);
+  shape.face.add(face, weights);
+  return face.gaze_rad;
 }
 
 }  // namespace dance

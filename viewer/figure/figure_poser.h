@@ -17,6 +17,7 @@
 #include "core/base/guest_id.h"
 #include "core/pose/kinematics.h"
 #include "formats/avatar/avatar_model.h"
+#include "viewer/figure/face/dancer_view.h"
 #include "viewer/figure/hand_contact.h"
 #include "viewer/scene/scene.h"
 
@@ -63,14 +64,17 @@ class FigurePoser {
   Rig& rig_of(const SceneGuest& guest, std::size_t place);
   std::shared_ptr<const AvatarShape> shape_of_model(
       const std::shared_ptr<const AvatarModel>& model);
-  void show(const SceneGuest& guest, const SceneState& scene, Rig& rig, FigureFit& fit,
-            PosedFigure& figure);
+  void show(const SceneGuest& guest, const SceneState& scene, std::size_t place);
+  // Sets the weights of the morphs; returns the gaze for eyes with nodes.
+  std::array<float, 2> show_face(const SceneGuest& guest, const SceneState& scene,
+                                 std::size_t place);
 
   const FigureOptions options_;
   std::vector<std::unique_ptr<Rig>> rigs_;  // in the order of the last picture's guests
   std::vector<Shape> shapes_;
   std::vector<FigureFit> fits_;
   std::vector<PosedFigure> figures_;  // more than are shown, when there were more
+  std::vector<DancerView> views_;
   HandContacts contacts_;
   std::size_t spring_work_left_ = 0;  // in this picture
 };

@@ -81,6 +81,9 @@ void set_uniform(const GlProgram& program, const char* name, const Eigen::Matrix
 void set_uniform(const GlProgram& program, const char* name, const Eigen::Vector3f& value) {
   glUniform3fv(location(program, name), 1, value.data());
 }
+void set_uniform(const GlProgram& program, const char* name, const Eigen::Vector4f& value) {
+  glUniform4fv(location(program, name), 1, value.data());
+}
 void set_uniform(const GlProgram& program, const char* name, float value) {
   glUniform1f(location(program, name), value);
 }

@@ -74,6 +74,7 @@ Result<GlProgram> link_program(std::string_view name,
 
 void set_uniform(const GlProgram& program, const char* name, const Eigen::Matrix4f& value);
 void set_uniform(const GlProgram& program, const char* name, const Eigen::Vector3f& value);
+void set_uniform(const GlProgram& program, const char* name, const Eigen::Vector4f& value);
 void set_uniform(const GlProgram& program, const char* name, float value);
 void set_uniform(const GlProgram& program, const char* name, int value);
 

@@ -12,8 +12,7 @@
 namespace dance {
 namespace {
 
-constexpr std::array<KeyHelp, 2> kKeys{
-    {{"I", "where each guest's milliseconds go"}, {"Tab", "while they are open: the next guest"}}};
+constexpr std::array<KeyHelp, 2> kKeys{{{"I", Text::kDoDelays}, {"Tab", Text::kDoNextGuest}}};
 
 // The numbers beside the bar; widths in letters' heights.
 struct Column {

@@ -24,7 +24,7 @@ class InstrumentPanel : public WindowPanel {
   // Not set: the first by name.
   const GuestId& chosen() const { return chosen_; }
 
-  std::string_view title() const override { return "instruments"; }
+  Text title() const override { return Text::kKeysEngineers; }
   std::span<const KeyHelp> keys() const override;
   bool is_open() const override { return is_open_; }
   bool on_key(const KeyPress& press) override;

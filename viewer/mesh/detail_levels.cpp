@@ -23,6 +23,8 @@ constexpr double kTooFarFromTarget = 2.5;
 // Where two joints share the skin it is lifted off for the simplification only: a straight knee
 // then looks bent to it, and keeps the rings of vertices that it bends by.
 constexpr float kLiftOfBends_m = 0.018f;
+// The simplification enlarges the head by this factor, so that faces keep more triangles.
+constexpr float kHeadScale = 1.6f;
 
 std::size_t triangle_count(const BatchTriangles& batches) {
   std::size_t indices = 0;
@@ -54,7 +56,16 @@ class Simplifier {
   // Vertices that differ in uv or normal only lie in one place.
   void find_places(std::span<const DetailVertex> vertices) {
     places_m_.reserve(vertices.size());
-    for (const DetailVertex& vertex : vertices) places_m_.push_back(vertex.place_m);
+    Vector3f head = Vector3f::Zero();
+    float weight = 0.0f;
+    for (const DetailVertex& vertex : vertices) {
+      head += vertex.face * vertex.place_m;
+      weight += vertex.face;
+    }
+    if (weight > 0.0f) head /= weight;
+    for (const DetailVertex& vertex : vertices)
+      places_m_.push_back(vertex.place_m +
+                          (kHeadScale - 1.0f) * vertex.face * (vertex.place_m - head));
     place_count_ = meshopt_generateVertexRemap(place_of_.data(), nullptr, vertices.size(),
                                                places_m_.data(), vertices.size(), sizeof(Vector3f));
   }

@@ -21,6 +21,7 @@ struct DetailVertex {
   Eigen::Vector3f place_m;
   Eigen::Vector3f normal;
   float bend = 0.0f;  // 0: follows one joint, 1: two or more alike
+  float face = 0.0f;  // 1: part of the head, which keeps more triangles
 };
 
 // Triangles of each batch, as indices of vertices.

@@ -72,12 +72,14 @@ class MeshBuilder {
   void gather_morphs() {
     std::vector<std::vector<MorphStep>> of_vertex(model_.morphs.empty() ? 0
                                                                         : model_.vertices.size());
+    moved_m_.assign(model_.vertices.size(), Vector3f::Zero());
     for (std::size_t m = 0; m < model_.morphs.size(); ++m) {
       const AvatarMorph& morph = model_.morphs[m];
       for (std::size_t i = 0; i < morph.vertices.size(); ++i) {
         const Vector3f& place = morph.places_m[i];
         const Vector3f normal = morph.normals.empty() ? Vector3f::Zero() : morph.normals[i];
         if (place.isZero(1e-6f) && normal.isZero(1e-3f)) continue;
+        moved_m_[morph.vertices[i]] += place;
         of_vertex[morph.vertices[i]].push_back({half_of(place.x()), half_of(place.y()),
                                                 half_of(place.z()), half_of(static_cast<float>(m)),
                                                 half_of(normal.x()), half_of(normal.y()),
@@ -153,8 +155,19 @@ class MeshBuilder {
     vertex.morphs = morphs_of_vertex_[index];
     vertices_.push_back(vertex);
     shapes_.push_back(
-        {from.place_m, from.normal,
-         std::min(1.0f, 2.0f * (1.0f - static_cast<float>(vertex.weights[0]) / 255.0f))});
+        {from.place_m + apart_m(index), from.normal,
+         std::min(1.0f, 2.0f * (1.0f - static_cast<float>(vertex.weights[0]) / 255.0f)),
+         std::min(1.0f, static_cast<float>(of_head) / 255.0f)});
+  }
+
+  // A mouth at rest is one line, so its vertices would be merged. The simplification therefore gets
+  // an open, smiling mouth, moved by at most kMost_m.
+  Vector3f apart_m(std::uint32_t index) const {
+    constexpr float kMost_m = 0.03f;
+    const Vector3f& moved_m = moved_m_[index];
+    if (!moved_m.allFinite()) return Vector3f::Zero();  // a sum of a hostile file's huge numbers
+    const float length_m = moved_m.norm();
+    return length_m > kMost_m ? Vector3f(kMost_m / length_m * moved_m) : moved_m;
   }
 
   // Levels from coarse to fine take their vertices, so that each has the first ones.
@@ -185,6 +198,7 @@ class MeshBuilder {
   std::shared_ptr<FigureMesh> mesh_ = std::make_shared<FigureMesh>();
   std::vector<bool> is_head_joint_;
   std::vector<std::uint32_t> morphs_of_vertex_;
+  std::vector<Vector3f> moved_m_;  // of each vertex, by all morphs together
   std::vector<FigureVertex> vertices_;
   std::vector<DetailVertex> shapes_;  // of the same
   BatchTriangles triangles_;          // of each batch

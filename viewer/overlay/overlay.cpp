@@ -11,9 +11,11 @@
 #include "formats/body/guest_look.h"
 #include "viewer/gl/gl_objects.h"
 #include "viewer/overlay/beat_panel.h"
+#include "viewer/overlay/dance_sign.h"
 #include "viewer/overlay/overlay_fonts.h"
 #include "viewer/overlay/voice_mark.h"
 #include "viewer/panel/panel_stack.h"
+#include "viewer/words/shown_name.h"
 
 namespace dance {
 
@@ -37,6 +39,14 @@ ImU32 shade(float alpha) {
 // Text on whole pixels is sharp.
 ImVec2 on_pixel(float x, float y) { return {std::round(x), std::round(y)}; }
 
+// The sign of recording, as on cameras: a red dot in a ring. Radius in heights of letters.
+constexpr float kRecordMark = 0.36f;
+void draw_record_mark(ImDrawList& list, ImVec2 centre, float radius_px, float alpha) {
+  const auto red = ImGui::ColorConvertFloat4ToU32(ImVec4(0.95f, 0.24f, 0.21f, alpha));
+  list.AddCircleFilled(centre, 0.62f * radius_px, red, 20);
+  list.AddCircle(centre, radius_px, red, 24, 0.16f * radius_px + 1.0f);
+}
+
 struct Tag {
   const SceneGuest* guest;
   ScreenPoint at;
@@ -44,6 +54,8 @@ struct Tag {
 
 // More name tags than these overlap wherever they are placed.
 constexpr std::size_t kTagsKeptApart = 4;
+// A guest who is drawn more transparently leaves the place to the other names.
+constexpr float kPushesAside = 0.5f;
 
 // A couple, one in front of the other: the tag of the farther one goes above the nearer one's. Tags
 // from far to near.
@@ -53,6 +65,7 @@ void keep_apart(std::vector<Tag>& tags, float width_px, float height_px) {
     for (std::size_t near = far + 1; near < tags.size(); ++near) {
       ScreenPoint& at = tags[far].at;
       const ScreenPoint& other = tags[near].at;
+      if (tags[near].guest->opacity < kPushesAside) continue;
       if (std::abs(at.x_px - other.x_px) < width_px && std::abs(at.y_px - other.y_px) < height_px)
         at.y_px = other.y_px - height_px;
     }
@@ -91,9 +104,11 @@ void Overlay::draw(const SceneState& scene, const OrbitCamera& camera, int width
   const auto height = static_cast<float>(height_px);
   imgui_.begin_frame(width_px, height_px);
   if (choice.tags) draw_tags(scene, camera, choice.tag_anchors_W_m, width, height);
+  draw_signs(*ImGui::GetBackgroundDrawList(),
+             {scene, camera, choice.tag_anchors_W_m, width, height, tag_font_->FontSize});
   if (choice.hud) draw_hud(scene);
   draw_words(choice, width, height);
-  PanelFrame frame{scene, width, height, scale_, tag_font_, hud_font_, digit_font_};
+  PanelFrame frame = frame_of(scene, width, height);
   if (choice.hud && !scene.guests.empty()) frame.figures_px = kHudWidth_em * hud_font_->FontSize;
   draw_notes(scene, height - (choice.panels != nullptr ? choice.panels->bottom_px(frame) : 0.0f));
   if (choice.panels != nullptr) choice.panels->draw(frame);
@@ -117,7 +132,8 @@ void Overlay::draw_beats(const Comparison& comparison, int width_px, int height_
                   {middle, top, static_cast<float>(width_px), bottom},
                   comparison.is_of_twins ? "in rhythm" : "as it is staged");
   list.AddRectFilled({middle - 1.0f, 0.0f}, {middle + 1.0f, bottom}, shade(1.0f));
-  draw_panels(panels, comparison.shown, static_cast<float>(width_px), top);  // above the beats
+  if (panels != nullptr)  // above the beats
+    panels->draw(frame_of(comparison.shown, static_cast<float>(width_px), top));
   imgui_.end_frame();
 }
 
@@ -138,18 +154,16 @@ void Overlay::draw_frames(std::span<const StageCell> cells, int width_px, int he
   const auto width = static_cast<float>(width_px);
   const auto height = static_cast<float>(height_px);
   if (choice.whole != nullptr) {
-    const PanelFrame frame{*choice.whole, width, height, scale_, tag_font_, hud_font_, digit_font_};
+    const PanelFrame frame = frame_of(*choice.whole, width, height);
     draw_notes(*choice.whole,
                height - (choice.panels != nullptr ? choice.panels->bottom_px(frame) : 0.0f));
-    draw_panels(choice.panels, *choice.whole, width, height);
+    if (choice.panels != nullptr) choice.panels->draw(frame);
   }
   imgui_.end_frame();
 }
 
-void Overlay::draw_panels(PanelStack* panels, const SceneState& scene, float width_px,
-                          float height_px) {
-  if (panels == nullptr) return;
-  panels->draw({scene, width_px, height_px, scale_, tag_font_, hud_font_, digit_font_});
+PanelFrame Overlay::frame_of(const SceneState& scene, float width_px, float height_px) const {
+  return {scene, width_px, height_px, scale_, tag_font_, hud_font_, digit_font_, texts_.language()};
 }
 
 // In dark rounds, as the tags are.
@@ -186,14 +200,16 @@ void Overlay::draw_tags(const SceneState& scene, const OrbitCamera& camera,
   const float pad = 0.42f * size;
   keep_apart(tags, 3.6f * size, 1.6f * size);
   for (const Tag& tag : tags) {
-    const char* name = tag.guest->id.c_str();
+    const std::string_view shown = shown_name(scene.names, tag.guest->id, texts_);
+    const char* name = shown.data();  // ends with a zero
     const float alpha = tag.guest->opacity;
     const ImVec2 text = tag_font_->CalcTextSizeA(size, width_px, 0.0f, name);
     const float dot = 0.26f * size;
     const bool has_mark = tag.guest->voice_mark != VoiceMark::kNone;
     const float mark = has_mark ? 0.8f * size : 0.0f;
     const float mark_room = has_mark ? mark + pad : 0.0f;
-    const float half = 0.5f * (text.x + 3.0f * dot + mark_room) + pad;
+    const float record_room = tag.guest->is_recording ? 2.0f * kRecordMark * size + pad : 0.0f;
+    const float half = 0.5f * (text.x + 3.0f * dot + mark_room + record_room) + pad;
     const ImVec2 low = on_pixel(tag.at.x_px - half, tag.at.y_px - text.y - 0.5f * pad);
     const ImVec2 high = on_pixel(tag.at.x_px + half, tag.at.y_px + 0.5f * pad);
     const float radius = 0.5f * (high.y - low.y);
@@ -210,7 +226,11 @@ void Overlay::draw_tags(const SceneState& scene, const OrbitCamera& camera,
     list.AddText(tag_font_, size, on_pixel(centre.x + 2.0f * dot, low.y + 0.5f * pad),
                  white(0.94f * alpha), name);
     draw_voice_mark(list, tag.guest->voice_mark,
-                    {high.x - pad - 0.5f * mark, 0.5f * (low.y + high.y)}, mark, alpha);
+                    {high.x - record_room - pad - 0.5f * mark, 0.5f * (low.y + high.y)}, mark,
+                    alpha);
+    if (tag.guest->is_recording)
+      draw_record_mark(list, {high.x - pad - kRecordMark * size, 0.5f * (low.y + high.y)},
+                       kRecordMark * size, alpha);
   }
 }
 

@@ -19,6 +19,7 @@
 #include "viewer/scene/comparison.h"
 #include "viewer/scene/scene.h"
 #include "viewer/scene/stage_picture.h"
+#include "viewer/words/texts.h"
 
 struct ImDrawList;
 struct ImFont;
@@ -26,6 +27,7 @@ struct ImFont;
 namespace dance {
 
 class PanelStack;
+struct PanelFrame;
 
 struct OverlayChoice {
   bool tags = true;
@@ -58,6 +60,8 @@ class Overlay {
   void draw_beats(const Comparison& comparison, int width_px, int height_px, PanelStack* panels);
   int panel_height_px(int height_px) const;
   const std::string& font_note() const { return font_note_; }
+  // The language of notes, panels and the names that programs gave.
+  void set_language(Language language) { texts_ = Texts(language); }
 
  private:
   explicit Overlay(float scale) : scale_(scale) {}
@@ -67,13 +71,14 @@ class Overlay {
   void draw_hud(const SceneState& scene);
   void draw_words(const OverlayChoice& choice, float width_px, float height_px);
   void draw_notes(const SceneState& scene, float height_px);
-  void draw_panels(PanelStack* panels, const SceneState& scene, float width_px, float height_px);
+  PanelFrame frame_of(const SceneState& scene, float width_px, float height_px) const;
 
   ImguiOnGl imgui_;
   float scale_;
   ImFont* tag_font_ = nullptr;
   ImFont* hud_font_ = nullptr;
   ImFont* digit_font_ = nullptr;
+  Texts texts_{Language::kEnglish};
   std::string font_note_;
 };
 

@@ -13,7 +13,7 @@ constexpr std::array<const char*, 3> kFonts{"/usr/share/fonts/truetype/dejavu/De
                                             "/usr/share/fonts/TTF/DejaVuSans.ttf",
                                             "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf"};
 
-// Where `letters` is nullptr, those of Latin-1; nullptr where there is no DejaVu font.
+// nullptr where there is no DejaVu font.
 ImFont* add_dejavu(ImFontAtlas& atlas, float size_px, const ImWchar* letters) {
   const char* file = find_overlay_font();
   return file == nullptr ? nullptr
@@ -31,13 +31,17 @@ const char* find_overlay_font() {
 }
 
 ImFont* add_overlay_font(ImFontAtlas& atlas, float size_px) {
-  ImFont* font = add_dejavu(atlas, size_px, nullptr);
+  // Latin, Greek and Cyrillic for chat and names; dashes, and the arrows of keys.
+  static constexpr std::array<ImWchar, 11> kLetters{0x0020, 0x024f, 0x0370, 0x052f, 0x2010, 0x2026,
+                                                    0x20ac, 0x20ac, 0x2190, 0x2193, 0};
+  ImFont* font = add_dejavu(atlas, size_px, kLetters.data());
   return font != nullptr ? font : atlas.AddFontDefault();
 }
 
 ImFont* add_text_font(ImFontAtlas& atlas, float size_px) {
-  static constexpr std::array<ImWchar, 7> kLetters{0x0020, 0x00ff, 0x2010, 0x2026,
-                                                   0x20ac, 0x20ac, 0};
+  // Latin, and the commonly used Greek and Cyrillic letters, for names.
+  static constexpr std::array<ImWchar, 11> kLetters{0x0020, 0x024f, 0x0386, 0x03ce, 0x0400, 0x04ff,
+                                                    0x2010, 0x2026, 0x20ac, 0x20ac, 0};
   ImFont* font = add_dejavu(atlas, size_px, kLetters.data());
   return font != nullptr ? font : atlas.AddFontDefault();
 }

@@ -26,6 +26,12 @@ bool PanelStack::on_key(const KeyPress& press) {
   return is_taken;
 }
 
+bool PanelStack::on_character(char32_t character) {
+  note_open();
+  return std::any_of(open_.rbegin(), open_.rend(),
+                     [&](WindowPanel* panel) { return panel->on_character(character); });
+}
+
 void PanelStack::draw(const PanelFrame& frame) {
   note_open();
   for (const auto& panel : panels_) panel->draw(frame);
@@ -35,13 +41,6 @@ float PanelStack::bottom_px(const PanelFrame& frame) const {
   float most = 0.0f;
   for (const auto& panel : panels_) most = std::max(most, panel->bottom_px(frame));
   return most;
-}
-
-std::vector<KeyHelp> PanelStack::keys() const {
-  std::vector<KeyHelp> all;
-  for (const auto& panel : panels_)
-    all.insert(all.end(), panel->keys().begin(), panel->keys().end());
-  return all;
 }
 
 std::vector<PanelStack::Group> PanelStack::key_groups() const {

@@ -8,7 +8,6 @@
 
 #include <memory>
 #include <span>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -20,12 +19,12 @@ class PanelStack {
  public:
   void add(std::unique_ptr<WindowPanel> panel) { panels_.push_back(std::move(panel)); }
   bool on_key(const KeyPress& press);
+  bool on_character(char32_t character);
   void draw(const PanelFrame& frame);
   float bottom_px(const PanelFrame& frame) const;
-  std::vector<KeyHelp> keys() const;
-  // As keys(), under the heading of each panel.
+  // The keys of all panels, each under the heading of its panel.
   struct Group {
-    std::string_view title;
+    Text title = Text::kCount;
     std::span<const KeyHelp> keys;
   };
   std::vector<Group> key_groups() const;

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "viewer/scene/scene.h"
+#include "viewer/words/texts.h"
 
 struct ImFont;
 
@@ -26,10 +27,12 @@ struct KeyPress {
   bool has_control = false;
 };
 
-// For the list of keys: "I", "instruments: latency of every guest".
+// For the list of keys: "I", "where each guest's delay comes from".
 struct KeyHelp {
-  std::string_view key;
-  std::string_view what;
+  std::string_view key;  // "" where its name depends on the language
+  Text what = Text::kCount;
+  Text key_text = Text::kCount;
+  std::string_view key_in(const Texts& texts) const { return key.empty() ? texts[key_text] : key; }
 };
 
 struct PanelFrame {
@@ -40,19 +43,22 @@ struct PanelFrame {
   ImFont* large_font = nullptr;
   ImFont* small_font = nullptr;
   ImFont* digit_font = nullptr;  // the ten digits alone, as high as they are read from afar
-  float figures_px = 0.0f;       // what the figures of guests take of the left, at the top
+  Language language = Language::kEnglish;
+  float figures_px = 0.0f;  // what the figures of guests take of the left, at the top
 };
 
 class WindowPanel {
  public:
   virtual ~WindowPanel() = default;
-  // The heading of its keys in the list of keys: "Timeline".
-  virtual std::string_view title() const { return {}; }
+  // The heading in the list of keys; kCount for a panel without keys.
+  virtual Text title() const { return Text::kCount; }
   virtual std::span<const KeyHelp> keys() const = 0;
   // A person has opened it and can close it: it hears keys before those opened earlier.
   virtual bool is_open() const { return false; }
   // True when the key was this panel's. Esc closes what is open.
   virtual bool on_key(const KeyPress& press) = 0;
+  // A character that was typed, after the key that made it. Told to open panels alone.
+  virtual bool on_character(char32_t) { return false; }
   virtual void draw(const PanelFrame& frame) = 0;
   // What it takes of the picture's bottom, over its whole width; notes stand above.
   virtual float bottom_px(const PanelFrame&) const { return 0.0f; }

@@ -17,7 +17,7 @@ namespace dance {
 
 class ExportPainter {
  public:
-  ExportPainter(const ViewDirector& view, PictureSize size, bool tags, bool trails)
+  ExportPainter(const ViewDirector& view, ViewPictureSize size, bool tags, bool trails)
       : view_(view), size_(size), tags_(tags), trails_(trails) {}
 
   // The first picture's camera jumps to its place where no window was there before.
@@ -26,7 +26,7 @@ class ExportPainter {
 
  private:
   ViewDirector view_;
-  PictureSize size_;
+  ViewPictureSize size_;
   bool tags_;
   bool trails_;
 };

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/program/program.h"
+#include "core/program/talk.h"
 #include "viewer/avatar/user_avatars.h"
 #include "viewer/gl/offscreen.h"
 #include "viewer/program/export_painter.h"
@@ -18,13 +19,15 @@ namespace {
 
 Result<ExportWish> wish_of(const ViewOptions& options, const ReplaySource& source) {
   ExportWish wish;
-  wish.log = options.log;
+  wish.log = options.log_to_read();
   wish.stage_only = options.feed.stage_only;
   wish.index = source.index();
   wish.path = options.export_to;
   wish.hz = options.export_hz;
   if (options.focus) wish.guest = *options.focus;
   DANCE_TRY(wish.kind, export_kind(options.export_to));
+  wish.is_silent = options.export_silent;
+  wish.band = best_band_sound();
   const double length_s = source.recorded().as_seconds();
   if (options.export_from_s > length_s || options.export_until_s > length_s + 0.5)
     return fail("--from and --to: choose within the recording, which is " +
@@ -36,10 +39,14 @@ Result<ExportWish> wish_of(const ViewOptions& options, const ReplaySource& sourc
   return wish;
 }
 
+// Without a terminal, for programs that show it, such as the lobby: a line every five percent.
 void show_progress(double share, int& shown) {
-  const int percent = static_cast<int>(share * 100.0);
-  if (isatty(STDERR_FILENO) != 1 || percent == shown) return;
+  const bool is_terminal = isatty(STDERR_FILENO) == 1;
+  const int step = is_terminal ? 1 : 5;
+  const int percent = static_cast<int>(share * 100.0) / step * step;
+  if (percent == shown) return;
   shown = percent;
+  if (!is_terminal) return talk::info("writing: {} %", percent);
   if (percent < 100)
     std::fprintf(stderr, "\rwriting: %d %%", percent);
   else
@@ -68,6 +75,7 @@ Result<void> run_export(const ViewOptions& options) {
     DANCE_TRY(context, OffscreenContext::create());
     const Quality quality = options.quality == QualityWish::kLow ? Quality::kLow : Quality::kHigh;
     DANCE_TRY(painter, StagePainter::create(quality, 1.0f));
+    painter->set_place(place_to_draw(options));
   }
   int shown = -1;
   for (;;) {

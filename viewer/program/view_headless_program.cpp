@@ -305,6 +305,8 @@ Result<void> run_headless(const ViewOptions& options) {
   DANCE_TRY(auto context, OffscreenContext::create());
   const Quality quality = options.quality == QualityWish::kLow ? Quality::kLow : Quality::kHigh;
   DANCE_TRY(auto painter, StagePainter::create(quality, 1.0f));
+  painter->set_place(place_to_draw(options));
+  painter->overlay().set_language(options.language);
   if (!painter->overlay().font_note().empty()) talk::info("{}", painter->overlay().font_note());
   return HeadlessRun(options, moments_s, *source, *painter).run();
 }

@@ -1,9 +1,12 @@
 // dance view: the stage of this house, in a window or as pictures.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/program/program.h"
+#include "core/program/talk.h"
+#include "formats/recorded/recording_log.h"
 #include "viewer/avatar/user_avatars.h"
 #include "viewer/program/view_program.h"
 #include "viewer/replay/export/replay_export.h"
@@ -20,12 +23,14 @@ Examples:
   dance view --focus alice --camera front
   dance view --view mirror --focus teacher           left is left, for those who learn
   dance view --view grid                             a class, each couple in a place of its own
+  dance view --place bar                             or studio, terrace, plain; key Z
   dance view --headless --out pictures --at 2,5,8    three pictures, no display needed
   dance view --headless --out pictures --seconds 10 --every 0.5 --size 640x360
   dance view --headless --out pictures --seconds 2 --strip 6 --no-hud
   dance view --show capture                          only what this house's cameras see
   dance view --avatar me.vrm --avatar bob=bob.glb    bob so, all others so
   dance view logs/couple.lcm                         a recorded dance, with a timeline
+  dance view take.bvh                                also of a .bvh, .glb, .mcap or .csv
   dance view logs/couple.lcm --export couple.mp4 --from 0.5 --to 2.5
   dance view --headless out/demo/demo.lcm --compare --beats 16,17,18,19 --strip 4
                                                      a recorded demo, on the beats of its music
@@ -35,6 +40,7 @@ struct Wishes {
   ViewOptions view;
   std::string size = "1280x720";
   std::string focus;
+  std::string place;
   double display_latency_ms = -1.0;
   bool compare = false;
   bool no_extrapolation = false;
@@ -46,7 +52,8 @@ struct Wishes {
 
 void add_replay_options(CommandLine& line, Wishes& wishes) {
   ViewOptions& view = wishes.view;
-  line.add("log,--log", view.log, "a recorded house, from its LCM log; else this house, live");
+  line.add("log,--log", view.log,
+           "a recorded dance: .lcm, .bvh, .glb, .mcap, .csv; else this house, live");
   line.add("--export", view.export_to,
            "write this range of the log, without a window: FILE.bvh, FILE.glb, FOLDER/ of "
            "pictures, FILE.mp4, .webm or .mkv");
@@ -57,6 +64,13 @@ void add_replay_options(CommandLine& line, Wishes& wishes) {
   line.add("--hz", view.export_hz,
            "its frames a second: 60 of motion and 30 of pictures unless said")
       .range(1.0, 480.0);
+  line.add_flag("--silent", view.export_silent, "a video without music and voices");
+}
+
+std::vector<std::string> place_names() {
+  std::vector<std::string> names;
+  for (const PlaceName& it : kPlaceNames) names.emplace_back(it.option);
+  return names;
 }
 
 void add_options(CommandLine& line, Wishes& wishes) {
@@ -94,8 +108,13 @@ void add_options(CommandLine& line, Wishes& wishes) {
       {{"auto", QualityWish::kAuto}, {"low", QualityWish::kLow}, {"high", QualityWish::kHigh}},
       "auto, low (no antialiasing or mirror images, coarser figures) or high; auto is low in a "
       "window without a graphics card, else high: pictures in files always, unless low is said");
+  line.add("--place", wishes.place,
+           "studio, bar or terrace, or plain for a disc of light; a window and exports have the "
+           "studio unless said, other pictures in files are plain")
+      .one_of(place_names());
   line.add("--size", wishes.size, "of window or pictures").shows_default();
-  line.add_flag("--no-hud", wishes.no_hud, "without the figures");
+  line.add_flag("--hud", view.hud, "a window with the measurements; H shows them too");
+  line.add_flag("--no-hud", wishes.no_hud, "headless: without the measurements");
   line.add_flag("--no-tags", wishes.no_tags, "without names over heads");
   line.add_flag("--headless", view.headless, "no window: pictures in files, named on stdout");
   line.add_choice<std::string>(
@@ -159,6 +178,8 @@ Result<void> finish(Wishes& wishes) {
     if (wishes.view.export_until_s > 0.0 && wishes.view.export_until_s <= wishes.view.export_from_s)
       return fail("--to is not after --from; let the range end after it begins");
     wishes.view.headless = true;
+  } else if (wishes.view.export_silent) {
+    return fail("--silent is of a video: dance view LOG --export FILE.mp4 --silent");
   }
   if (wishes.view.panel == "timeline" && wishes.view.log.empty())
     return fail("--panel timeline needs a log: dance view LOG");
@@ -174,14 +195,33 @@ Result<void> finish(Wishes& wishes) {
     wishes.view.display_latency = Duration::seconds(1e-3 * wishes.display_latency_ms);
   wishes.view.extrapolates = !wishes.no_extrapolation;
   wishes.view.late_latching = !wishes.early;
+  if (!wishes.place.empty()) wishes.view.place = parse_place(wishes.place);
   if (!wishes.focus.empty()) wishes.view.focus = GuestId::parse(wishes.focus);
   for (const std::string& text : wishes.avatars) {
     DANCE_TRY(AvatarOverride avatar, parse_avatar_override(text, data_folder() + "/avatars"));
     wishes.view.avatars.push_back(std::move(avatar));
   }
-  wishes.view.hud = !wishes.no_hud;
+  if (wishes.view.headless) wishes.view.hud = !wishes.no_hud;
   wishes.view.tags = !wishes.no_tags;
   return {};
+}
+
+Result<void> run(ViewOptions& view) {
+  std::optional<RecordingLog> log;
+  if (!view.log.empty()) {
+    DANCE_TRY(log, RecordingLog::open(view.log));
+    for (const std::string& note : log->notes()) talk::info("{}: {}", view.log, note);
+    if (!log->lost().empty() && view.export_to.empty())
+      talk::warn("{}: damaged: {}; the rest is shown", view.log, log->lost());
+    if (log->is_made()) view.made_log = log->path();
+  }
+  if (!view.export_to.empty()) {
+    auto exported = run_export(view);
+    if (!exported || !log || log->lost().empty()) return exported;
+    return fail(view.log + ": damaged: " + log->lost() + "; " + view.export_to +
+                " holds all the rest");
+  }
+  return view.headless ? run_headless(view) : run_window(view);
 }
 
 }  // namespace
@@ -193,8 +233,5 @@ int main(int argc, char** argv) {
                           "dance view");
   dance::add_options(line, wishes);
   line.finally([&] { return dance::finish(wishes); });
-  return dance::run_program(line, argc, argv, [&] {
-    if (!wishes.view.export_to.empty()) return dance::run_export(wishes.view);
-    return wishes.view.headless ? dance::run_headless(wishes.view) : dance::run_window(wishes.view);
-  });
+  return dance::run_program(line, argc, argv, [&] { return dance::run(wishes.view); });
 }

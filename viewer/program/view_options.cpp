@@ -54,8 +54,13 @@ Result<void> check_shown(const ViewOptions& options) {
       "stage too) or --view compare (as it came beside as it was staged)");
 }
 
-Result<PictureSize> parse_size(const std::string& text) {
-  PictureSize size;
+Venue place_to_draw(const ViewOptions& options) {
+  const bool is_for_people = !options.headless || !options.export_to.empty();
+  return options.place.value_or(is_for_people ? Venue::kStudio : Venue::kPlain);
+}
+
+Result<ViewPictureSize> parse_size(const std::string& text) {
+  ViewPictureSize size;
   const char* end = text.data() + text.size();
   const auto [after_width, width_error] = std::from_chars(text.data(), end, size.width_px);
   if (width_error == std::errc() && after_width != end && *after_width == 'x') {

@@ -13,6 +13,7 @@
 #include "core/base/result.h"
 #include "viewer/avatar/avatar_library.h"
 #include "viewer/feed/stage_feed.h"
+#include "viewer/scene/place.h"
 #include "viewer/view/camera_rig.h"
 #include "viewer/view/view_mode.h"
 #include "viewer/window/window_state.h"
@@ -24,7 +25,7 @@ constexpr double kFilm_hz = 25.0;
 
 enum class QualityWish { kAuto, kLow, kHigh };
 
-struct PictureSize {
+struct ViewPictureSize {
   int width_px = 1280;
   int height_px = 720;
 };
@@ -43,8 +44,9 @@ struct ViewOptions {
   ViewMode view = ViewMode::kOrbit;
   std::optional<GuestId> focus;
   QualityWish quality = QualityWish::kAuto;
-  PictureSize size;
-  bool hud = true;
+  std::optional<Venue> place;  // not set: as place_to_draw() chooses
+  ViewPictureSize size;
+  bool hud = false;  // measurements, for engineers
   bool tags = true;
 
   DisplayMode display = DisplayMode::kTearFree;
@@ -53,18 +55,23 @@ struct ViewOptions {
   bool late_latching = true;
 
   bool headless = false;
-  std::string session;  // the file that panels save into; "" = none
-  std::string panel;    // open from the begin: dance, instruments, style, keys; "" = none
+  std::string session;      // the file that panels save into; "" = none
+  bool hosts_room = false;  // this program runs the room's server: closing the window ends the room
+  std::string panel;        // open from the begin: dance, instruments, style, keys; "" = none
   Language language = language_of_user();  // of the texts for dancers
   std::string out = ".";
   MomentWish moments;
   std::vector<AvatarOverride> avatars;  // --avatar
   std::string log;                      // a recorded house; "" = a live one
+  std::string made_log;                 // the LCM log made of `log`, where that is of another kind
   std::string export_to;                // a file or folder; "" = none
   double export_from_s = 0.0;
   double export_until_s = 0.0;  // 0 = the end
   double export_hz = 0.0;       // 0 = as usual for its kind
+  bool export_silent = false;   // a video without sound
   std::vector<double> beats;    // of its music: they stand for the moments
+
+  const std::string& log_to_read() const { return made_log.empty() ? log : made_log; }
 };
 
 // The moments of --at, or every so often up to `seconds`, or `strip` moments spread over them, or
@@ -75,7 +82,11 @@ Result<std::vector<double>> plan_moments(const MomentWish& wish, double recorded
 // A log is shown as its house showed it: --show is for a live one.
 Result<void> check_shown(const ViewOptions& options);
 
+// The chosen place, else the studio for people: in windows and exports. Pictures of --headless
+// are for comparing, and are plain.
+Venue place_to_draw(const ViewOptions& options);
+
 // "1280x720", each side 64 to 8192.
-Result<PictureSize> parse_size(const std::string& text);
+Result<ViewPictureSize> parse_size(const std::string& text);
 
 }  // namespace dance

@@ -37,6 +37,16 @@ void BoardFeed::on_message(const Channel& channel, std::span<const std::uint8_t>
     case Signal::kGuest:
       if (GuestStatus status; read(status)) board_.on_status(channel.guest(), status, now);
       return;
+    case Signal::kChat:
+      if (Chat chat; read(chat)) board_.on_chat(channel.guest(), chat, now);
+      return;
+    case Signal::kProfile:
+      // The signs of a recorded moment no longer apply.
+      if (Profile profile; read(profile)) {
+        profile.is_recording = profile.is_host = false;
+        board_.on_profile(where, channel.guest(), profile, now);
+      }
+      return;
     case Signal::kBeat:
       if (Beat beat; read(beat)) board_.on_beat(beat);
       return;

@@ -181,7 +181,7 @@ class Checkpoints {
 
   template <class HasSamples>
   std::vector<std::uint8_t> state(HasSamples has_samples) {
-    StateWriter writer;
+    ReplayStateWriter writer;
     board_.carry(writer, has_samples);
     return std::move(writer.bytes());
   }

@@ -41,6 +41,7 @@ class ProgressLine {
 
 ReplaySource::ReplaySource(const ViewOptions& options)
     : path_(options.log),
+      log_to_read_(options.log_to_read()),
       stage_only_(options.feed.stage_only),
       is_window_(!options.headless),
       board_(0, options.feed.stage_only) {}
@@ -49,13 +50,12 @@ Result<std::unique_ptr<ReplaySource>> ReplaySource::open(const ViewOptions& opti
   std::unique_ptr<ReplaySource> source(new ReplaySource(options));
   if (source->is_window_) {
     // What is no log at all is said before a window opens.
-    DANCE_TRY([[maybe_unused]] const ReplayLog log, ReplayLog::open(options.log));
+    DANCE_TRY([[maybe_unused]] const ReplayLog log, ReplayLog::open(options.log_to_read()));
     source->start_reading();
     return source;
   }
   ProgressLine line;
-  auto indexed = index_of_log(source->path_, source->stage_only_,
-                              [&](double share) { return line.show(share); });
+  auto indexed = source->make_index([&](double share) { return line.show(share); });
   line.end();
   if (auto taken = source->take(std::move(indexed)); !taken)
     return tl::make_unexpected(taken.error());
@@ -67,10 +67,17 @@ ReplaySource::~ReplaySource() {
   if (thread_.joinable()) thread_.join();
 }
 
+// No index is kept of a log that was made for this run.
+Result<IndexedLog> ReplaySource::make_index(const ReadingProgress& goes_on) const {
+  if (log_to_read_ == path_) return index_of_log(path_, stage_only_, goes_on);
+  DANCE_TRY(ReplayIndex index, build_index(log_to_read_, stage_only_, goes_on));
+  return IndexedLog{std::move(index), "", false};
+}
+
 void ReplaySource::start_reading() {
   thread_ = std::thread([this] {
     pthread_setname_np(pthread_self(), "view-index");
-    read_ = index_of_log(path_, stage_only_, [this](double share) {
+    read_ = make_index([this](double share) {
       progress_.store(share, std::memory_order_relaxed);
       return !asked_to_end_.load(std::memory_order_relaxed);
     });
@@ -84,7 +91,7 @@ Result<void> ReplaySource::take(Result<IndexedLog> indexed) {
   index_ = std::make_shared<const ReplayIndex>(std::move(indexed->index));
   board_.clear(index_->clock_id);
   instruments_.emplace(index_->clock_id);
-  auto feed = ReplayFeed::open(path_, index_, board_);
+  auto feed = ReplayFeed::open(log_to_read_, index_, board_);
   if (!feed) return tl::make_unexpected(feed.error());
   feed_.emplace(std::move(*feed));
   player_ = std::make_unique<ReplayPlayer>(index_);

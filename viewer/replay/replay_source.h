@@ -47,11 +47,13 @@ class ReplaySource final : public PictureSource {
 
  private:
   explicit ReplaySource(const ViewOptions& options);
+  Result<IndexedLog> make_index(const ReadingProgress& goes_on) const;
   void start_reading();
   Result<void> take(Result<IndexedLog> indexed);
   void show(MonoTime moment);
 
   std::string path_;
+  std::string log_to_read_;
   bool stage_only_;
   bool is_window_;
   GuestBoard board_;

@@ -1,4 +1,4 @@
-// The state of a GuestBoard as bytes of an index: StateWriter keeps what a carry() shows it,
+// The state of a GuestBoard as bytes of an index: ReplayStateWriter keeps what a carry() shows it,
 // StateReader sets it again.
 //
 // Units/frames: little-endian; times in ns.
@@ -16,13 +16,14 @@
 #include <vector>
 
 #include "core/base/byte_reader.h"
+#include "core/base/fixed_string.h"
 #include "core/base/guest_id.h"
 #include "core/base/time.h"
 #include "core/pose/skeleton.h"
 
 namespace dance {
 
-class StateWriter {
+class ReplayStateWriter {
  public:
   void operator()(bool v) { put<1>(v ? 1 : 0); }
   void operator()(int v) { put<4>(static_cast<std::uint32_t>(v)); }
@@ -44,6 +45,11 @@ class StateWriter {
     (*this)(skeleton.version);
     for (const auto& offset : skeleton.offset_m) vector(offset);
     for (const auto& tip : skeleton.tip_m) vector(tip);
+  }
+  template <std::size_t kCapacity>
+  void operator()(const FixedString<kCapacity>& text) {
+    put<2>(text.size());
+    out_.insert(out_.end(), text.view().begin(), text.view().end());
   }
   void refuse() {}
   std::vector<std::uint8_t>& bytes() { return out_; }
@@ -99,6 +105,11 @@ class StateReader {
     for (auto& offset : skeleton.offset_m) vector(offset);
     for (auto& tip : skeleton.tip_m) vector(tip);
     if (!is_valid(skeleton)) refuse();
+  }
+  template <std::size_t kCapacity>
+  void operator()(FixedString<kCapacity>& text) {
+    const std::size_t size = in_.u16();
+    if (!text.assign(in_.text(size))) refuse();
   }
   void refuse() { is_refused_ = true; }
   bool is_fine() const { return in_.is_exhausted() && !is_refused_; }

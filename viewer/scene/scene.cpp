@@ -38,6 +38,12 @@ Vector3f tag_anchor_W_m(const BodyFrames& figure) {
   return figure.tip(Tip::kHead) + Vector3f(0.0f, kTagAboveHead_m, 0.0f);
 }
 
+Vector3f face_W_m(const SceneGuest& guest) {
+  BodyFrames frames;
+  figure_frames(guest, frames);
+  return 0.5f * (frames.position(Bone::kHead) + frames.tip(Tip::kHead));
+}
+
 Vector3f facing_W(const SceneGuest& guest) {
   Vector3f facing = guest.pose.R_PB[index_of(Bone::kHips)] * Vector3f::UnitZ();
   facing.y() = 0.0f;

@@ -23,6 +23,7 @@
 #include "formats/avatar/avatar_model.h"
 #include "viewer/scene/avatar_wish.h"
 #include "viewer/scene/beat_meter.h"
+#include "viewer/words/shown_name.h"
 
 namespace dance {
 
@@ -55,6 +56,9 @@ struct SceneVoice {
   bool is_push_to_talk = false;
   bool is_heard = true;  // what is said now goes to the others
   bool has_microphone = true;
+  bool has_loudspeaker = true;
+  // No sound server answers, or there is no sound device.
+  bool has_no_sound() const { return !has_microphone && !has_loudspeaker; }
 };
 // The one of them that is drawn beside the name.
 enum class VoiceMark : std::uint8_t {
@@ -63,9 +67,13 @@ enum class VoiceMark : std::uint8_t {
   kMuted,         // not heard
   kNoMicrophone,  // cannot be heard
   kWaiting,       // push to talk: heard while the key is held
-  kTalking,       // push to talk: the key is held
+  kTalking,       // push to talk: the key is held; of a guest of another house: talks now
 };
 VoiceMark mark_of(const SceneVoice& voice);
+
+// A sign that a guest shows above its head for a moment.
+enum class DanceSign : std::uint8_t { kNone, kApplause, kHeart };
+constexpr double kSignHolds_s = 2.0;
 
 struct SceneGuest {
   GuestId id;
@@ -81,6 +89,9 @@ struct SceneGuest {
   GuestFigures figures;
   float voice = 0.0f;  // loudness, 0 = silent to 1
   VoiceMark voice_mark = VoiceMark::kNone;
+  bool is_recording = false;  // this guest is of another house, and that house records
+  DanceSign sign = DanceSign::kNone;
+  float sign_age_s = 0.0f;
   // For the picture from this guest's own eyes: the head would hide everything.
   bool hides_head = false;
   // What a view that compares shows on its left and right: the pose as it came into this house, and
@@ -94,6 +105,13 @@ struct SceneGuest {
   bool is_predicted = false;
 };
 
+// One line of the room's chat.
+struct SceneLine {
+  GuestId guest;
+  std::string text;
+  MonoTime written;
+};
+
 struct SceneState {
   MonoTime time;  // of the picture, in the house's clock
   // One picture may show several stages: halves of a comparison, cells of a grid. What is kept of a
@@ -103,6 +121,11 @@ struct SceneState {
   std::vector<SceneGuest> guests;
   std::optional<SceneMusic> music;
   std::vector<SceneVoice> voices;  // of this house's guests, by name; of those who do not dance too
+  std::vector<SceneLine> lines;    // the newest, in the order of time
+  ShownNames names;                // of guests who are not drawn, too
+  std::vector<GuestId> recorders;  // guests of other houses that record
+  // The room's only host, if it is of another house. Not set: no such host, or several.
+  GuestId host;
   // Free lines at the bottom left: the viewer's own rate, a hint when no dancer is here.
   std::vector<std::string> notes;
 };
@@ -114,6 +137,9 @@ void append_outline(const SceneGuest& guest, std::vector<Eigen::Vector3f>& point
 // Where the tag hangs: above the head.
 Eigen::Vector3f tag_anchor_W_m(const SceneGuest& guest);
 Eigen::Vector3f tag_anchor_W_m(const BodyFrames& figure);
+
+// About the point between the figure's eyes.
+Eigen::Vector3f face_W_m(const SceneGuest& guest);
 
 // The direction in which the guest's hips look, on the floor.
 Eigen::Vector3f facing_W(const SceneGuest& guest);

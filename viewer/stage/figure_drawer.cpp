@@ -199,8 +199,9 @@ void FigureDrawer::draw_shadows(const Eigen::Matrix4f& light_from_world) {
 }
 
 void FigureDrawer::draw_solid(const StageLight& light, const Eigen::Matrix4f& clip_from_world,
-                              const Eigen::Vector3f& eye_W_m, float mirror) {
-  const bool is_mirror = mirror < 0.0f;
+                              const Eigen::Vector3f& eye_W_m, FigureImage image) {
+  const bool is_mirror = image != FigureImage::kNone;
+  const float mirror = image == FigureImage::kInFloor ? -1.0f : 1.0f;
   glEnable(GL_CLIP_DISTANCE0);
   if (is_mirror) glFrontFace(GL_CW);
   // Program by program, so that what all figures share is set once for each.

@@ -21,6 +21,9 @@
 
 namespace dance {
 
+// Mirror images are coarser and show all heads. Mirroring reverses the winding of triangles.
+enum class FigureImage { kNone, kInFloor, kInMirror };
+
 // What a picture cost.
 struct DrawnFigures {
   std::size_t figures = 0;
@@ -40,9 +43,10 @@ class FigureDrawer {
   std::span<const std::size_t> waiting() const { return waiting_; }
 
   void draw_shadows(const Eigen::Matrix4f& light_from_world);
-  // mirror: 1, or -1 for the image under the floor.
+  // kInFloor takes the picture's matrix and the eye mirrored below the floor; kInMirror takes the
+  // matrix and the eye of the mirror.
   void draw_solid(const StageLight& light, const Eigen::Matrix4f& clip_from_world,
-                  const Eigen::Vector3f& eye_W_m, float mirror);
+                  const Eigen::Vector3f& eye_W_m, FigureImage image);
   void draw_blended(const StageLight& light, const Eigen::Matrix4f& clip_from_world,
                     const Eigen::Vector3f& eye_W_m);
   const DrawnFigures& drawn() const { return drawn_; }

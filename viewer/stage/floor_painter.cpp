@@ -22,6 +22,8 @@ constexpr float kEndsAtPools = 2.1f;
 
 }  // namespace
 
+float pool_of(const StageArea& area) { return area.radius_m + kRoundArea_m; }
+
 float radius_of_floor_that_ends_at(float ends_m) { return ends_m / kEndsAtPools - kRoundArea_m; }
 
 BeatPulse pulse_of(const SceneMusic& music) {
@@ -40,8 +42,8 @@ Result<FloorPainter> FloorPainter::create(Quality quality) {
   const bool is_high = quality == Quality::kHigh;
   const std::string_view taps = is_high ? kManyTaps : kFewTaps;
   const std::string_view plain = is_high ? "#define IS_PLAIN 0\n" : "#define IS_PLAIN 1\n";
-  DANCE_TRY(painter.floor_,
-            link_program("floor", {kFloorVertex}, {taps, plain, kLight, kFloorFragment}));
+  DANCE_TRY(painter.floor_, link_program("floor", {kFloorVertex},
+                                         {taps, plain, kLight, kFloorDetail, kFloorFragment}));
   DANCE_TRY(painter.spot_, link_program("spot", {kSpotVertex}, {kSpotFragment}));
   DANCE_TRY(painter.waiting_, link_program("waiting", {kSpotVertex}, {kWaitingFragment}));
   return painter;
@@ -72,7 +74,7 @@ void FloorPainter::draw_floor(const StageLight& light, const Matrix4f& clip_from
   light.use(floor_, eye_W_m);
   set_uniform(floor_, "u_clip_from_world", clip_from_world);
   set_uniform(floor_, "u_centre", area.centre_W_m);
-  set_uniform(floor_, "u_pool", area.radius_m + kRoundArea_m);
+  set_uniform(floor_, "u_pool", pool_of(area));
   set_uniform(floor_, "u_reflect", quality_ == Quality::kHigh ? 1.0f : 0.6f);
   set_uniform(floor_, "u_pulse", Vector3f(pulse.radius_m, pulse.ring, pulse.glow));
   glEnable(GL_BLEND);

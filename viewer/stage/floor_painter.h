@@ -24,7 +24,9 @@ struct StageArea {
   float radius_m;
 };
 
-// Of an area whose floor has faded out so far from its centre.
+// Radius of the pool of light round an area.
+float pool_of(const StageArea& area);
+// Radius of the area whose floor has faded out at that distance from its centre.
 float radius_of_floor_that_ends_at(float ends_m);
 
 // Of the ring that runs outwards with each beat.

@@ -58,6 +58,10 @@ void StageLight::use(const GlProgram& program, const Eigen::Vector3f& eye_W_m) c
   glBindTexture(GL_TEXTURE_2D, map_.name());
   set_uniform(program, "u_eye", eye_W_m);
   set_uniform(program, "u_to_light", to_light_W_);
+  set_uniform(program, "u_key", mood_.key);
+  set_uniform(program, "u_sky", mood_.sky);
+  set_uniform(program, "u_bounce", mood_.bounce);
+  set_uniform(program, "u_rim", mood_.rim);
   set_uniform(program, "u_light_from_world", light_from_world_);
   set_uniform(program, "u_penumbra", kPenumbra_m / (2.0f * radius_m_));
   set_uniform(program, "u_shadow", kUnit);

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/base/guest_id.h"
+#include "viewer/scene/place.h"
 
 namespace dance {
 
@@ -23,6 +24,7 @@ struct FloorLimit {
 };
 
 struct StageLook {
+  Venue place = Venue::kPlain;
   bool trails = false;  // of the hands
   bool pulse = true;    // the floor shows the beat
   // Which of several stages in one picture: each keeps hair, skirts and trails of its own. The
@@ -30,7 +32,7 @@ struct StageLook {
   int stage = 0;
   // Drawn as that guest sees it: without the guest's own head.
   std::optional<GuestId> through_eyes_of = {};
-  // Not set: the floor is as wide as its guests need.
+  // Limits the plain stage's floor. Not set: the floor is as wide as its guests need.
   std::optional<FloorLimit> floor = {};
 };
 

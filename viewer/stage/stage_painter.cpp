@@ -1,6 +1,16 @@
 #include "viewer/stage/stage_painter.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace dance {
+namespace {
+
+int scaled_px(int px, float scale) {
+  return std::max(1, static_cast<int>(std::lround(scale * static_cast<float>(px))));
+}
+
+}  // namespace
 
 Result<std::unique_ptr<StagePainter>> StagePainter::create(Quality quality, float scale) {
   std::unique_ptr<StagePainter> painter(new StagePainter);
@@ -11,6 +21,7 @@ Result<std::unique_ptr<StagePainter>> StagePainter::create(Quality quality, floa
 
 StageLook StagePainter::look_of(const SceneState& scene) const {
   StageLook look = look_;
+  if (place_ != Venue::kPlain) look.place = place_;
   look.trails = look.trails || scene.shows_trails;
   look.stage += scene.stage;
   for (const SceneGuest& guest : scene.guests)
@@ -20,10 +31,20 @@ StageLook StagePainter::look_of(const SceneState& scene) const {
 
 Result<void> StagePainter::draw(const SceneState& scene, const OrbitCamera& camera, int width_px,
                                 int height_px, const OverlayChoice& choice) {
+  return draw_stage(scene, camera, width_px, height_px, choice, render_scale_);
+}
+
+Result<void> StagePainter::draw_stage(const SceneState& scene, const OrbitCamera& camera,
+                                      int width_px, int height_px, const OverlayChoice& choice,
+                                      float render_scale) {
   is_wide_ = false;
   renderer_->set_look(look_of(scene));
-  if (auto drawn = renderer_->draw(scene, camera, width_px, height_px); !drawn) return drawn;
-  if (camera.is_mirrored) mirror_into_wide(width_px, height_px);
+  if (auto drawn = renderer_->draw(scene, camera, scaled_px(width_px, render_scale),
+                                   scaled_px(height_px, render_scale));
+      !drawn)
+    return drawn;
+  if (camera.is_mirrored || render_scale != 1.0f)
+    copy_into_wide(width_px, height_px, camera.is_mirrored);
   find_tag_anchors(scene);
   OverlayChoice with_anchors = choice;
   with_anchors.tag_anchors_W_m = tag_anchors_W_m_;
@@ -44,7 +65,8 @@ Result<void> StagePainter::draw(std::span<const StageCell> cells, int width_px, 
   words.hud = false;  // no room in a cell
   for (const StageCell& cell : cells) {
     renderer_->set_light_yaw(cell.light_yaw_rad);
-    if (auto drawn = draw(*cell.scene, cell.camera, cell.box.width_px, cell.box.height_px, words);
+    if (auto drawn = draw_stage(*cell.scene, cell.camera, cell.box.width_px, cell.box.height_px,
+                                words, 1.0f);
         !drawn)
       return drawn;
     copy_half(cell.box.left_px, height_px - cell.box.top_px - cell.box.height_px);
@@ -63,13 +85,16 @@ void StagePainter::clear_wide() const {
   glClear(GL_COLOR_BUFFER_BIT);
 }
 
-void StagePainter::mirror_into_wide(int width_px, int height_px) {
+void StagePainter::copy_into_wide(int width_px, int height_px, bool is_mirrored) {
+  const PictureTarget& from = renderer_->target();
+  const bool is_same_size = from.width_px() == width_px && from.height_px() == height_px;
   resize_wide(width_px, height_px);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, renderer_->target().finished().name());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, wide_.name());
   glDisable(GL_SCISSOR_TEST);
-  glBlitFramebuffer(0, 0, width_px, height_px, width_px, 0, 0, height_px, GL_COLOR_BUFFER_BIT,
-                    GL_NEAREST);
+  glBlitFramebuffer(0, 0, from.width_px(), from.height_px(), is_mirrored ? width_px : 0, 0,
+                    is_mirrored ? 0 : width_px, height_px, GL_COLOR_BUFFER_BIT,
+                    is_same_size ? GL_NEAREST : GL_LINEAR);
   is_wide_ = true;
   glBindFramebuffer(GL_FRAMEBUFFER, wide_.name());
   glViewport(0, 0, width_px, height_px);
@@ -101,7 +126,7 @@ Result<void> StagePainter::draw(const Comparison& comparison, const OrbitCamera&
   words.hud = false;       // the beat panels have the figures
   words.panels = nullptr;  // drawn once, over both halves
   for (const SceneState* scene : {&comparison.raw, &comparison.shown}) {
-    if (auto drawn = draw(*scene, camera, half_px, height_px - panel_px, words); !drawn)
+    if (auto drawn = draw_stage(*scene, camera, half_px, height_px - panel_px, words, 1.0f); !drawn)
       return drawn;
     copy_half(scene == &comparison.raw ? 0 : width_px - half_px, panel_px);
   }

@@ -25,6 +25,11 @@ class StagePainter {
   // Of the pictures that follow. Which stage it is, whose eyes are looked through and whether hands
   // have trails is told by the scene too.
   void set_look(const StageLook& look) { look_ = look; }
+  // Sets the place of all following pictures; kPlain leaves the place of their look.
+  void set_place(Venue place) { place_ = place; }
+  // Draws the following pictures of one stage with that share of the width and height and enlarges
+  // them; text over them stays sharp. 1 = all pixels.
+  void set_render_scale(float scale) { render_scale_ = scale; }
 
   // A mirrored camera's picture is turned round before names are written on it.
   Result<void> draw(const SceneState& scene, const OrbitCamera& camera, int width_px, int height_px,
@@ -52,7 +57,9 @@ class StagePainter {
   void resize_wide(int width_px, int height_px);
   void copy_half(int left_px, int bottom_px) const;
   void clear_wide() const;
-  void mirror_into_wide(int width_px, int height_px);
+  void copy_into_wide(int width_px, int height_px, bool is_mirrored);
+  Result<void> draw_stage(const SceneState& scene, const OrbitCamera& camera, int width_px,
+                          int height_px, const OverlayChoice& choice, float render_scale);
   GLuint finished() const {
     return is_wide_ ? wide_.name() : renderer_->target().finished().name();
   }
@@ -61,7 +68,9 @@ class StagePainter {
   GlFramebuffer wide_;
   int wide_width_px_ = 0, wide_height_px_ = 0;
   bool is_wide_ = false;  // of the last draw()
+  float render_scale_ = 1.0f;
   StageLook look_;
+  Venue place_ = Venue::kPlain;
   std::vector<Eigen::Vector3f> tag_anchors_W_m_;
   std::unique_ptr<StageRenderer> renderer_;
   std::unique_ptr<Overlay> overlay_;

@@ -16,7 +16,7 @@ constexpr int kSamples = 4;
 // Around the guests there is always this much lit floor.
 constexpr float kSmallestStage_m = 2.2f;
 // A stage that is no longer drawn lets go of its guests' models.
-constexpr std::uint64_t kPicturesKept = 240;
+constexpr std::uint64_t kKeptPictures = 240;
 
 bool is_high(Quality quality) { return quality == Quality::kHigh; }
 int shadow_map_px(Quality quality) { return is_high(quality) ? 2048 : 1024; }
@@ -25,21 +25,25 @@ int shadow_map_px(Quality quality) { return is_high(quality) ? 2048 : 1024; }
 
 Result<std::unique_ptr<StageRenderer>> StageRenderer::create(Quality quality) {
   DANCE_TRY(FloorPainter floor, FloorPainter::create(quality));
+  DANCE_TRY(PlacePainter place, PlacePainter::create(quality));
+  DANCE_TRY(LimbPainter limbs, LimbPainter::create());
   DANCE_TRY(RibbonPainter ribbons, RibbonPainter::create());
-  std::unique_ptr<StageRenderer> renderer(
-      new StageRenderer(quality, std::move(floor), std::move(ribbons)));
+  std::unique_ptr<StageRenderer> renderer(new StageRenderer(
+      quality, {std::move(floor), std::move(place), std::move(limbs), std::move(ribbons)}));
   if (auto linked = renderer->link_programs(); !linked) return fail(linked.error().what);
   check_gl("StageRenderer::create");
   return renderer;
 }
 
-StageRenderer::StageRenderer(Quality quality, FloorPainter floor, RibbonPainter ribbons)
+StageRenderer::StageRenderer(Quality quality, Painters painters)
     : quality_(quality),
       target_(is_high(quality) ? kSamples : 0),
       light_(shadow_map_px(quality)),
       figures_(quality),
-      floor_(std::move(floor)),
-      ribbons_(std::move(ribbons)),
+      floor_(std::move(painters.floor)),
+      place_(std::move(painters.place)),
+      limb_painter_(std::move(painters.limbs)),
+      ribbons_(std::move(painters.ribbons)),
       no_vertices_(GlVertexArray::make()),
       area_{Vector3f(0.0f, 0.9f, 0.0f), kSmallestStage_m} {}
 
@@ -73,6 +77,7 @@ Result<void> StageRenderer::prepare(const SceneState& scene, const StageEye& eye
   gather(scene);
   eye_ = eye;
   pulse_ = look_.pulse && scene.music ? pulse_of(*scene.music) : BeatPulse{};
+  place_.set_breath(look_.pulse ? lamp_breath(scene.music) : 0.0f);
   trail_triangles_.clear();
   if (look_.trails) {
     memory.trails.add(scene.time, posed_);
@@ -87,7 +92,7 @@ StageRenderer::Memory& StageRenderer::memory_of(int stage) {
   Memory& memory = memories_[stage];
   memory.last_used = ++picture_;
   std::erase_if(memories_,
-                [this](const auto& it) { return it.second.last_used + kPicturesKept < picture_; });
+                [this](const auto& it) { return it.second.last_used + kKeptPictures < picture_; });
   return memory;
 }
 
@@ -108,6 +113,11 @@ void StageRenderer::gather(const SceneState& scene) {
   for (const PosedFigure& figure : posed_) append_contact_spots(figure, spots_);
   area_ = {Vector3f(0.0f, 0.9f, 0.0f), kSmallestStage_m};
   if (!box.isEmpty()) area_ = {box.center(), 0.5f * box.diagonal().norm() + kSmallestStage_m};
+  light_.set_mood({});
+  if (!has_place()) return;
+  place_.show(look_.place, room_around(box));
+  light_.set_mood(place_.shape().mood);
+  if (!is_high(quality_) && place_.shape().mirror) make_soft_limbs(posed_, limbs_);
 }
 
 StageArea StageRenderer::floor_area() const {
@@ -138,21 +148,60 @@ void StageRenderer::paint_shadows() {
 void StageRenderer::paint_eye(const StageEye& eye, const PaintMore& more) {
   const Eigen::Matrix4f& clip_from_world = eye.clip_from_world;
   target_.bind_light();
+  glEnable(GL_DEPTH_TEST);
   glClear(GL_DEPTH_BUFFER_BIT);
-  draw_backdrop(eye);
-  if (is_high(quality_))
-    figures_.draw_solid(light_, clip_from_world, eye.eye_W_m.cwiseProduct(Vector3f(1, -1, 1)),
-                        -1.0f);
-  floor_.draw_floor(light_, clip_from_world, eye.eye_W_m, floor_area(), pulse_);
+  if (has_place())
+    paint_place(eye);
+  else
+    paint_plain(eye);
   floor_.draw_spots(clip_from_world, spots_);
   floor_.draw_waiting(clip_from_world, waiting_);
-  figures_.draw_solid(light_, clip_from_world, eye.eye_W_m, 1.0f);
+  figures_.draw_solid(light_, clip_from_world, eye.eye_W_m, FigureImage::kNone);
   figures_.draw_blended(light_, clip_from_world, eye.eye_W_m);
   ribbons_.draw(clip_from_world, trail_triangles_);
   if (more) more(eye);
   target_.resolve_light();
   finish_picture();
   check_gl("StageRenderer::paint");
+}
+
+void StageRenderer::paint_plain(const StageEye& eye) {
+  draw_backdrop(eye);
+  if (is_high(quality_))
+    figures_.draw_solid(light_, eye.clip_from_world, eye_in_floor(eye).eye_W_m,
+                        FigureImage::kInFloor);
+  floor_.draw_floor(light_, eye.clip_from_world, eye.eye_W_m, floor_area(), pulse_);
+}
+
+// Low quality draws the sky last, so that each pixel is shaded about once.
+void StageRenderer::paint_place(const StageEye& eye) {
+  const auto mirror = place_.mirror_for(eye);
+  if (is_high(quality_)) place_.draw_sky(eye);
+  if (is_high(quality_) || mirror) paint_images(eye, mirror);
+  place_.draw_solid(eye);
+  if (mirror) place_.draw_glass(eye);
+  place_.draw_floor(light_, eye, area_, pulse_);
+  if (!is_high(quality_)) place_.draw_sky(eye);
+  place_.draw_beyond(light_, eye, area_);
+  place_.draw_fading(eye);
+}
+
+void StageRenderer::paint_images(const StageEye& eye, const std::optional<PlaceMirror>& mirror) {
+  place_.begin_mask(eye, is_high(quality_), mirror.has_value());
+  if (is_high(quality_)) {
+    place_.draw_image(eye_in_floor(eye), false);
+    figures_.draw_solid(light_, eye.clip_from_world, eye_in_floor(eye).eye_W_m,
+                        FigureImage::kInFloor);
+  }
+  if (mirror) {
+    const StageEye image = eye_in_mirror(eye, *mirror);
+    place_.draw_image(image, true);
+    if (is_high(quality_))
+      figures_.draw_solid(light_, image.clip_from_world, image.eye_W_m, FigureImage::kInMirror);
+    else
+      limb_painter_.draw(image, limbs_);
+  }
+  place_.end_mask();
 }
 
 void StageRenderer::draw_backdrop(const StageEye& eye) {

@@ -1,5 +1,5 @@
-// StageRenderer: draws the stage — backdrop, floor, figures, their shadows and mirror images, the
-// beat and the trails of hands — from a SceneState and a camera.
+// StageRenderer: draws the stage — the place or the plain floor, figures, their shadows and mirror
+// images, the beat and the trails of hands — from a SceneState and a camera.
 //
 // Units/frames: metres in W; the finished picture is 8-bit sRGB.
 // Ownership:    owns its OpenGL objects; the context must outlive it. All of them come from the
@@ -22,6 +22,8 @@
 #include "viewer/scene/scene.h"
 #include "viewer/stage/figure_drawer.h"
 #include "viewer/stage/floor_painter.h"
+#include "viewer/stage/place/limb_painter.h"
+#include "viewer/stage/place/place_painter.h"
 #include "viewer/stage/ribbon_painter.h"
 #include "viewer/stage/stage_light.h"
 #include "viewer/stage/stage_look.h"
@@ -74,10 +76,20 @@ class StageRenderer {
   };
   Memory& memory_of(int stage);
 
-  StageRenderer(Quality quality, FloorPainter floor, RibbonPainter ribbons);
+  struct Painters {
+    FloorPainter floor;
+    PlacePainter place;
+    LimbPainter limbs;
+    RibbonPainter ribbons;
+  };
+  StageRenderer(Quality quality, Painters painters);
   Result<void> link_programs();
   void gather(const SceneState& scene);
   StageArea floor_area() const;
+  bool has_place() const { return look_.place != Venue::kPlain; }
+  void paint_plain(const StageEye& eye);
+  void paint_place(const StageEye& eye);
+  void paint_images(const StageEye& eye, const std::optional<PlaceMirror>& mirror);
   void draw_backdrop(const StageEye& eye);
   void finish_picture();
 
@@ -87,6 +99,8 @@ class StageRenderer {
   StageLight light_;
   FigureDrawer figures_;
   FloorPainter floor_;
+  PlacePainter place_;
+  LimbPainter limb_painter_;
   RibbonPainter ribbons_;
   GlProgram backdrop_;
   GlProgram finish_;
@@ -98,6 +112,7 @@ class StageRenderer {
   std::span<const PosedFigure> posed_;
   std::vector<ContactSpot> spots_;
   std::vector<WaitingGuest> waiting_;
+  std::vector<SoftLimb> limbs_;  // for a mirror, in low quality
   std::vector<RibbonVertex> trail_triangles_;
   StageArea area_;
   BeatPulse pulse_;

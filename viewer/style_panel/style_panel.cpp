@@ -14,8 +14,7 @@
 namespace dance {
 namespace {
 
-constexpr std::array<KeyHelp, 2> kKeys{{{"S", "how large a guest dances, prediction and rhythm"},
-                                        {"Tab", "while it is open: the next guest"}}};
+constexpr std::array<KeyHelp, 2> kKeys{{{"S", Text::kDoStyle}, {"Tab", Text::kDoNextGuest}}};
 constexpr float kWidth_em = 25.0f;
 constexpr double kOwnMix = 1.0;  // as `dance style` has it
 

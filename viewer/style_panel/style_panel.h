@@ -41,7 +41,7 @@ class StylePanel : public WindowPanel {
   const FlowSetting& setting() const { return flow_.setting(); }
   const std::string& note() const { return note_; }
 
-  std::string_view title() const override { return "style"; }
+  Text title() const override { return Text::kKeysStyle; }
   std::span<const KeyHelp> keys() const override;
   bool is_open() const override { return is_open_; }
   bool on_key(const KeyPress& press) override;

@@ -30,6 +30,8 @@ constexpr float kSwingPeriod_s = 26.0f;
 float share_after(float dt_s, float softness_s) { return 1.0f - std::exp(-dt_s / softness_s); }
 }  // namespace
 
+float share_of_frame(float zoom) { return std::pow(std::min(zoom, 1.0f), 1.4f); }
+
 CameraRig::CameraRig(CameraPreset preset) : preset_(preset) {
   camera_.pitch_rad = kUsualPitch_rad;
   yaw_is_chosen_ = preset != CameraPreset::kAuto;
@@ -79,13 +81,35 @@ void CameraRig::focus(const GuestId& guest) {
   zoom_ = 1.0f;
 }
 
+bool CameraRig::has_focus(const SceneState& scene) const {
+  return focus_ && std::any_of(scene.guests.begin(), scene.guests.end(),
+                               [this](const SceneGuest& it) { return it.id == *focus_; });
+}
+
 std::vector<Vector3f> CameraRig::points_of(const SceneState& scene) const {
   std::vector<Vector3f> points;
+  const bool is_of_one = has_focus(scene);
   for (const SceneGuest& guest : scene.guests)
-    if (focus_ && guest.id == *focus_) append_outline(guest, points);
-  if (!points.empty()) return points;
-  for (const SceneGuest& guest : scene.guests) append_outline(guest, points);
+    if (!is_of_one || guest.id == *focus_) append_outline(guest, points);
   return points;
+}
+
+// The nearer, the more the middle of the faces becomes the middle of the picture.
+Vector3f CameraRig::towards_faces(const std::vector<const SceneState*>& scenes,
+                                  const Vector3f& target_W_m) const {
+  if (zoom_ >= 1.0f) return target_W_m;
+  Vector3f faces_W_m = Vector3f::Zero();
+  float count = 0.0f;
+  for (const SceneState* scene : scenes) {
+    const bool is_of_one = has_focus(*scene);
+    for (const SceneGuest& guest : scene->guests) {
+      if (is_of_one && guest.id != *focus_) continue;
+      faces_W_m += face_W_m(guest);
+      count += 1.0f;
+    }
+  }
+  if (count == 0.0f) return target_W_m;
+  return faces_W_m / count + share_of_frame(zoom_) * (target_W_m - faces_W_m / count);
 }
 
 void CameraRig::choose_yaw(const SceneState& scene) {
@@ -118,15 +142,16 @@ void CameraRig::update(const SceneState& scene, float aspect, Duration dt) {
   if (is_free_ || points.empty()) return;
   const OrbitCamera framed = frame_points(camera_, points, aspect, kFill, covered_below_);
   const float distance_m = std::clamp(framed.distance_m * zoom_, kClosest_m, kFurthest_m);
+  const Vector3f target_W_m = towards_faces({&scene}, framed.target_W_m);
   if (!has_framed_) {
     has_framed_ = true;
-    camera_.target_W_m = framed.target_W_m;
+    camera_.target_W_m = target_W_m;
     camera_.distance_m = distance_m;
     return;
   }
   const float softness = distance_m > camera_.distance_m ? kBackOff_s : kComeNear_s;
   camera_.distance_m += share_after(dt_s, softness) * (distance_m - camera_.distance_m);
-  camera_.target_W_m += share_after(dt_s, kFollow_s) * (framed.target_W_m - camera_.target_W_m);
+  camera_.target_W_m += share_after(dt_s, kFollow_s) * (target_W_m - camera_.target_W_m);
 }
 
 void CameraRig::jump(const std::vector<const SceneState*>& scenes, float aspect) {
@@ -139,6 +164,7 @@ void CameraRig::jump(const std::vector<const SceneState*>& scenes, float aspect)
   }
   camera_ = frame_points(camera_, points, aspect, kFill, covered_below_);
   camera_.distance_m *= zoom_;
+  camera_.target_W_m = towards_faces(scenes, camera_.target_W_m);
   has_framed_ = !points.empty();
 }
 

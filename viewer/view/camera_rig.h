@@ -21,13 +21,17 @@ namespace dance {
 // kAuto looks across the line on which the dancers stand.
 enum class CameraPreset { kAuto, kFront, kSide, kTop, kOrbit };
 
+// The share of the way from the faces to the middle of the frame that is left at `zoom` (below 1:
+// nearer): faces keep about their place in the picture while they come to its middle.
+float share_of_frame(float zoom);
+
 class CameraRig {
  public:
   explicit CameraRig(CameraPreset preset);
 
   void drag_orbit(float right, float up);
   void drag_pan(float right, float up);
-  void zoom(float notches);  // positive comes nearer
+  void zoom(float notches);  // positive comes nearer, to the faces
   void frame_all();
   void focus(const GuestId& guest);
   void toggle_turning() { is_turning_ = !is_turning_; }
@@ -48,6 +52,9 @@ class CameraRig {
  private:
   void choose_yaw(const SceneState& scene);
   std::vector<Eigen::Vector3f> points_of(const SceneState& scene) const;
+  bool has_focus(const SceneState& scene) const;
+  Eigen::Vector3f towards_faces(const std::vector<const SceneState*>& scenes,
+                                const Eigen::Vector3f& target_W_m) const;
 
   CameraPreset preset_;
   OrbitCamera camera_;

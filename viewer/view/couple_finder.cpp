@@ -21,7 +21,7 @@ std::optional<std::size_t> find(const SceneState& scene, const GuestId& id) {
 
 }  // namespace
 
-const std::vector<std::vector<std::size_t>>& CoupleFinder::groups(const SceneState& scene) {
+const std::vector<std::vector<std::size_t>>& ViewCoupleFinder::groups(const SceneState& scene) {
   const std::size_t n = scene.guests.size();
   constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
   std::vector<std::size_t> partner(n, kNobody);

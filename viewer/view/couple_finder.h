@@ -1,5 +1,6 @@
-// CoupleFinder: who dances with whom, from where people stand: each the other's nearest, and near.
-// A couple stays one until it has clearly parted, so that a grid of couples does not flicker.
+// ViewCoupleFinder: pairs of dancers for the camera, from where they stand: each is the other's
+// nearest, and near. A couple stays one until it has clearly parted, so that a grid of couples does
+// not flicker.
 //
 // Units/frames: metres in W.
 // Ownership:    remembers the couples; allocates when guests come or go.
@@ -14,7 +15,7 @@
 
 namespace dance {
 
-class CoupleFinder {
+class ViewCoupleFinder {
  public:
   static constexpr float kTogether_m = 1.3f;
   static constexpr float kParted_m = 2.2f;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "viewer/scene/figure_stature.h"
+#include "viewer/view/camera_rig.h"
 
 namespace dance {
 
@@ -21,6 +22,7 @@ constexpr float kHighestView_rad = 1.5f;
 constexpr float kTall = 1.42f;
 constexpr float kWide = 1.2f;
 constexpr float kMiddle = 0.56f;  // of the height
+constexpr float kFace = 0.92f;
 // The place goes with the dancer soon, up and down hardly, so that steps do not shake the picture;
 // the side slowly, so that a spin of less than two seconds is seen and not taken along.
 constexpr float kPlace_s = 0.25f;
@@ -63,13 +65,26 @@ float FollowCamera::wanted_distance_m(const SceneGuest& guest, float aspect) con
   return zoom_ * half_m / std::tan(0.5f * camera_.fov_y_rad);
 }
 
+float FollowCamera::middle_m(const SceneGuest& guest) const {
+  return (kFace + share_of_frame(zoom_) * (kMiddle - kFace)) * figure_height_m(guest);
+}
+
+// The camera goes farther away to make up for the covered part, and keeps the dancer in the middle
+// of the rest.
+OrbitCamera FollowCamera::camera() const {
+  OrbitCamera framed = camera_;
+  framed.distance_m /= 1.0f - covered_below_;
+  const float height_m = 2.0f * framed.distance_m * std::tan(0.5f * framed.fov_y_rad);
+  framed.target_W_m -= 0.5f * covered_below_ * height_m * framed.axes_W().col(1);
+  return framed;
+}
+
 void FollowCamera::jump(const SceneGuest& guest, float aspect) {
   has_begun_ = true;
   guest_ = guest.id;
   facing_W_ = facing_W(guest);
   camera_.yaw_rad = yaw_of(facing_W_) + side_rad_;
-  camera_.target_W_m =
-      Vector3f(guest.pose.p_WH_m.x(), kMiddle * figure_height_m(guest), guest.pose.p_WH_m.z());
+  camera_.target_W_m = Vector3f(guest.pose.p_WH_m.x(), middle_m(guest), guest.pose.p_WH_m.z());
   camera_.distance_m = wanted_distance_m(guest, aspect);
 }
 
@@ -83,8 +98,8 @@ void FollowCamera::update(const SceneGuest& guest, float aspect, Duration dt) {
   target.z() += share * (hips.z() - target.z());
   // A floor above zero, a jump, a sitting dancer.
   const float rise_m = stature_of(guest).legs * (hips.y() - guest.skeleton.hips_height_m());
-  const float middle_m = kMiddle * figure_height_m(guest) + rise_m;
-  target.y() += share_of(dt_s, kHeight_s) * (middle_m - target.y());
+  const float wanted_m = middle_m(guest) + rise_m;
+  target.y() += share_of(dt_s, zoom_ < 1.0f ? kPlace_s : kHeight_s) * (wanted_m - target.y());
   camera_.distance_m += share * (wanted_distance_m(guest, aspect) - camera_.distance_m);
   facing_W_ += share_of(dt_s, kFacing_s) * (facing_W(guest) - facing_W_);
   if (keeps_ != Keeps::kSideOfDancer || facing_W_.norm() < kSureFacing) return;

@@ -47,7 +47,7 @@ class GridView {
   };
   Cell& cell_of(const SceneGuest& first, std::size_t people);
 
-  CoupleFinder couples_;
+  ViewCoupleFinder couples_;
   std::vector<std::unique_ptr<Cell>> kept_;
   std::vector<StageCell> cells_;
   float turned_ = 0.0f;

@@ -1,8 +1,19 @@
 #include "viewer/view/view_director.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "viewer/words/shown_name.h"
 
 namespace dance {
+namespace {
+
+constexpr float kSeenThrough = 0.2f;  // opacity in front of the dancer in the mirror
+constexpr float kNearMirror_m = 0.3f;
+constexpr float kBefore_m = 0.25f;  // a guest is in front if nearer than the dancer by this
+constexpr float kAside_m = 1.0f, kFades_m = 0.45f;
+
+}  // namespace
 
 ViewDirector::ViewDirector(CameraPreset preset, ViewMode mode) : mode_(mode), rig_(preset) {}
 
@@ -110,8 +121,11 @@ void ViewDirector::compose(SceneState& scene, const Size& size, Duration dt, boo
   is_comparing_ = compares;
   words_.clear();
   const PixelBox all{0, 0, size.width_px, size.height_px};
-  rig_.set_covered_below(static_cast<float>(size.covered_px) /
-                         static_cast<float>(std::max(1, size.height_px)));
+  const float covered =
+      static_cast<float>(size.covered_px) / static_cast<float>(std::max(1, size.height_px));
+  rig_.set_covered_below(covered);
+  follow_.set_covered_below(covered);
+  mirror_.set_covered_below(covered);
   only_ = {&scene, camera_, all};
   if (compares) {
     const PixelBox half{0, 0, std::max(1, size.width_px / 2),
@@ -125,8 +139,7 @@ void ViewDirector::compose(SceneState& scene, const Size& size, Duration dt, boo
   } else if (is_of_one(mode_) && !scene.guests.empty()) {
     compose_one(scene, all, dt);
   } else {
-    if (mode_ == ViewMode::kCompare)
-      words_ = "nothing to compare: no dancer both comes into this house and is on its stage";
+    if (mode_ == ViewMode::kCompare) words_ = texts_[Text::kViewCompare];
     compose_all(scene, all.aspect(), dt, jumps);
   }
   only_.camera = camera_;
@@ -145,7 +158,10 @@ void ViewDirector::compose_all(SceneState& scene, float aspect, Duration dt, boo
 void ViewDirector::compose_one(SceneState& scene, const PixelBox& box, Duration dt) {
   rig_.update(scene, box.aspect(), dt);  // the light goes by it
   SceneGuest& guest = *one_of(scene);
-  words_ = std::string(name_of(mode_).words) + " " + std::string(guest.id.view());
+  const Text words = mode_ == ViewMode::kFollow   ? Text::kViewFollow
+                     : mode_ == ViewMode::kMirror ? Text::kViewMirror
+                                                  : Text::kViewEyes;
+  words_ = texts_.say(words, {shown_name(scene.names, guest.id, texts_)});
   if (mode_ == ViewMode::kFirstPerson) {
     eyes_.update(guest, dt);
     guest.hides_head = true;
@@ -155,6 +171,26 @@ void ViewDirector::compose_one(SceneState& scene, const PixelBox& box, Duration 
   FollowCamera& camera = mode_ == ViewMode::kFollow ? follow_ : mirror_;
   camera.update(guest, box.aspect(), dt);
   camera_ = camera.camera();
+  if (mode_ == ViewMode::kMirror) let_through(scene, guest);
+}
+
+// Draws dancers between the mirror and the shown dancer transparently.
+void ViewDirector::let_through(SceneState& scene, const SceneGuest& shown) const {
+  const Eigen::Vector3f eye = camera_.eye_W_m();
+  const auto on_floor = [](const Eigen::Vector3f& p) { return Eigen::Vector2f(p.x(), p.z()); };
+  const Eigen::Vector2f to_shown = on_floor(shown.pose.p_WH_m - eye);
+  const float far_m = to_shown.norm();
+  if (far_m < kNearMirror_m) return;
+  const Eigen::Vector2f along = to_shown / far_m;
+  for (SceneGuest& guest : scene.guests) {
+    if (guest.id == shown.id) continue;
+    const Eigen::Vector2f to_guest = on_floor(guest.pose.p_WH_m - eye);
+    const float ahead_m = to_guest.dot(along);
+    const float aside_m = std::abs(to_guest.x() * along.y() - to_guest.y() * along.x());
+    const float before = std::clamp((far_m - ahead_m) / kBefore_m, 0.0f, 1.0f);
+    const float between = std::clamp((kAside_m - aside_m) / kFades_m, 0.0f, 1.0f);
+    guest.opacity *= 1.0f - (1.0f - kSeenThrough) * before * between;
+  }
 }
 
 }  // namespace dance

@@ -20,6 +20,7 @@
 #include "viewer/view/follow_camera.h"
 #include "viewer/view/grid_view.h"
 #include "viewer/view/view_mode.h"
+#include "viewer/words/texts.h"
 
 namespace dance {
 
@@ -64,11 +65,13 @@ class ViewDirector {
   float light_yaw_rad() const { return rig_.stage_yaw_rad(); }
   // "following alice"; empty for the whole stage.
   const std::string& words() const { return words_; }
+  void set_language(Language language) { texts_ = Texts(language); }
 
  private:
   SceneGuest* one_of(SceneState& scene) const;
   void compose(SceneState& scene, const Size& size, Duration dt, bool jumps);
   void compose_one(SceneState& scene, const PixelBox& box, Duration dt);
+  void let_through(SceneState& scene, const SceneGuest& shown) const;
   void compose_all(SceneState& scene, float aspect, Duration dt, bool jumps);
 
   ViewMode mode_;
@@ -84,6 +87,7 @@ class ViewDirector {
   std::span<const StageCell> cells_;
   StageCell only_{};
   std::string words_;
+  Texts texts_{Language::kEnglish};
 };
 
 }  // namespace dance

@@ -14,16 +14,15 @@ enum class ViewMode { kOrbit, kFollow, kMirror, kFirstPerson, kCompare, kGrid };
 struct ViewName {
   ViewMode mode;
   std::string_view option;  // of --view
-  std::string_view words;   // in the window
 };
 
 constexpr std::array<ViewName, 6> kViewNames{{
-    {ViewMode::kOrbit, "orbit", "the whole stage"},
-    {ViewMode::kFollow, "follow", "following"},
-    {ViewMode::kMirror, "mirror", "in the mirror:"},
-    {ViewMode::kFirstPerson, "first-person", "through the eyes of"},
-    {ViewMode::kCompare, "compare", "as it comes | as it is staged"},
-    {ViewMode::kGrid, "grid", "each in a place of their own"},
+    {ViewMode::kOrbit, "orbit"},
+    {ViewMode::kFollow, "follow"},
+    {ViewMode::kMirror, "mirror"},
+    {ViewMode::kFirstPerson, "first-person"},
+    {ViewMode::kCompare, "compare"},
+    {ViewMode::kGrid, "grid"},
 }};
 
 constexpr const ViewName& name_of(ViewMode mode) {

@@ -34,12 +34,23 @@ struct Line {
 
 using Lines = std::vector<Line>;
 
-Lines lines_of(const std::vector<PanelStack::Group>& groups) {
+// One heading has the keys of the window and those of a panel; measurements come last.
+std::vector<Text> headings_of(const std::vector<PanelStack::Group>& groups) {
+  std::vector<Text> headings;
+  for (const PanelStack::Group& group : groups)
+    if (std::ranges::find(headings, group.title) == headings.end()) headings.push_back(group.title);
+  std::ranges::stable_partition(headings, [](Text text) { return text != Text::kKeysEngineers; });
+  return headings;
+}
+
+Lines lines_of(const std::vector<PanelStack::Group>& groups, const Texts& texts) {
   Lines lines;
-  for (const PanelStack::Group& group : groups) {
+  for (const Text heading : headings_of(groups)) {
     if (!lines.empty()) lines.push_back({});
-    lines.push_back({group.title.empty() ? "More" : group.title, {}, true});
-    for (const KeyHelp& help : group.keys) lines.push_back({help.key, help.what});
+    lines.push_back({texts[heading], {}, true});
+    for (const PanelStack::Group& group : groups)
+      for (const KeyHelp& help : group.keys)
+        if (group.title == heading) lines.push_back({help.key_in(texts), texts[help.what]});
   }
   return lines;
 }
@@ -49,13 +60,21 @@ float width_of(const ImFont& font, float size_px, std::string_view text) {
   return font.CalcTextSizeA(size_px, 1e6f, 0.0f, text.data(), text.data() + text.size()).x;
 }
 
-// Where each line goes: columns of so many lines; no heading stands at the foot of one, no space at
-// its head.
+// Lines of the group that begins at `heading`.
+std::size_t group_size(const Lines& lines, std::size_t heading) {
+  std::size_t end = heading + 1;
+  while (end < lines.size() && !lines[end].key.empty()) ++end;
+  return end - heading;
+}
+
+// Puts lines into columns of at most `most`. A group stays together where it can; no heading stands
+// at the foot of a column, no space at its head.
 std::vector<Lines> columns_of(const Lines& lines, std::size_t most) {
   std::vector<Lines> columns(1);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const bool is_space = lines[i].key.empty();
-    const std::size_t wants = lines[i].is_heading ? 2 : 1;
+    const std::size_t group = lines[i].is_heading ? group_size(lines, i) : 1;
+    const std::size_t wants = group <= most ? group : 2;
     if (columns.back().size() + wants > most && !columns.back().empty()) columns.emplace_back();
     if (is_space && columns.back().empty()) continue;
     columns.back().push_back(lines[i]);
@@ -154,7 +173,8 @@ void HelpPanel::draw(const PanelFrame& frame) {
   if (page_ < 0) return;
   std::vector<PanelStack::Group> groups = own_;
   for (const PanelStack::Group& group : panels_.key_groups()) groups.push_back(group);
-  const Lines lines = lines_of(groups);
+  const Texts texts(frame.language);
+  const Lines lines = lines_of(groups, texts);
   const Layout layout = best_layout(frame, lines);
   const auto a_page = static_cast<std::size_t>(layout.columns);
   pages_ = static_cast<int>((layout.all.size() + a_page - 1) / a_page);
@@ -182,7 +202,7 @@ void HelpPanel::draw(const PanelFrame& frame) {
                 top + 0.8f * margin);
   if (pages_ <= 1) return;
   const std::string foot_words =
-      std::to_string(page_ + 1) + " of " + std::to_string(pages_) + ": ? turns the page";
+      texts.say(Text::kKeysPage, {std::to_string(page_ + 1), std::to_string(pages_)});
   list.AddText(frame.large_font, size,
                {std::round(left + margin), std::round(top + height - 1.6f * size)},
                ink(1.0f, 1.0f, 1.0f, 0.6f), foot_words.c_str());

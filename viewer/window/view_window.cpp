@@ -125,6 +125,7 @@ Result<void> ViewWindow::renew() {
   glfwDestroyWindow(window_);
   window_ = nullptr;
   drag_ = WindowDrag::kNone;
+  buttons_.clear();
   if (auto opened = open({width, height}); !opened) return opened;
   // Sizes are scaled to the monitor when a window is made; these were already.
   glfwSetWindowSize(window_, width, height);
@@ -143,6 +144,25 @@ void ViewWindow::wait_for_events(Duration longest) {
 }
 void ViewWindow::swap() { glfwSwapBuffers(window_); }
 bool ViewWindow::is_over() const { return glfwWindowShouldClose(window_) != 0; }
+
+bool ViewWindow::is_full_screen() const { return glfwGetWindowMonitor(window_) != nullptr; }
+
+void ViewWindow::toggle_full_screen() {
+  if (is_full_screen())
+    return glfwSetWindowMonitor(window_, nullptr, place_.left, place_.top, place_.width,
+                                place_.height, GLFW_DONT_CARE);
+  GLFWmonitor* const monitor = monitor_of(window_);
+  const GLFWvidmode* const mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+  if (mode == nullptr) return;
+  glfwGetWindowPos(window_, &place_.left, &place_.top);
+  glfwGetWindowSize(window_, &place_.width, &place_.height);
+  glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+void ViewWindow::keep_open() {
+  glfwSetWindowShouldClose(window_, GLFW_FALSE);
+  if (glfwGetWindowAttrib(window_, GLFW_ICONIFIED) != 0) glfwRestoreWindow(window_);
+}
 
 bool ViewWindow::set_tear_free(bool is_tear_free) {
   is_tear_free_ = is_tear_free;
@@ -168,7 +188,7 @@ ViewWindow::Size ViewWindow::framebuffer_size() const {
   return size;
 }
 
-float ViewWindow::scale() const {
+float ViewWindow::monitor_scale() const {
   float x = 1.0f;
   float y = 1.0f;
   glfwGetWindowContentScale(window_, &x, &y);
@@ -184,18 +204,40 @@ double ViewWindow::refresh_hz() const {
   return std::min(mode->refreshRate, 480);
 }
 
-void ViewWindow::pass_input_to_panels() {
-  ImGuiIO& io = ImGui::GetIO();
+// Panels are drawn in pixels, the cursor is told in the window's own units.
+std::pair<float, float> ViewWindow::cursor_px() const {
   int width = 0, height = 0;
   glfwGetWindowSize(window_, &width, &height);
   const Size pixels = framebuffer_size();
   double x = 0.0, y = 0.0;
   glfwGetCursorPos(window_, &x, &y);
-  // Panels are drawn in pixels, the mouse is told in the window's own units.
-  io.MousePos = ImVec2(static_cast<float>(x * pixels.width_px / std::max(width, 1)),
-                       static_cast<float>(y * pixels.height_px / std::max(height, 1)));
-  for (const int button : {GLFW_MOUSE_BUTTON_LEFT, GLFW_MOUSE_BUTTON_RIGHT})
-    io.MouseDown[button] = glfwGetMouseButton(window_, button) == GLFW_PRESS;
+  return {static_cast<float>(x * pixels.width_px / std::max(width, 1)),
+          static_cast<float>(y * pixels.height_px / std::max(height, 1))};
+}
+
+void ViewWindow::lend_clipboard() {
+  ImGuiIO& io = ImGui::GetIO();
+  io.ClipboardUserData = window_;
+  io.SetClipboardTextFn = [](void* window, const char* text) {
+    glfwSetClipboardString(static_cast<GLFWwindow*>(window), text);
+  };
+  io.GetClipboardTextFn = [](void* window) {
+    return glfwGetClipboardString(static_cast<GLFWwindow*>(window));
+  };
+}
+
+void ViewWindow::pass_input_to_panels() {
+  ImGuiIO& io = ImGui::GetIO();
+  lend_clipboard();
+  const auto [x_px, y_px] = cursor_px();
+  io.MousePos = ImVec2(x_px, y_px);
+  const std::size_t changes = buttons_.take([&](const MouseButtons::Change& change) {
+    io.MousePos = ImVec2(change.x_px, change.y_px);
+    io.MouseDown[change.button] = change.is_down;
+  });
+  if (changes == 0)
+    for (int button = 0; button < static_cast<int>(MouseButtons::kButtons); ++button)
+      io.MouseDown[button] = glfwGetMouseButton(window_, button) == GLFW_PRESS;
   io.MouseWheel = std::exchange(wheel_, 0.0f);
 }
 
@@ -203,6 +245,7 @@ void ViewWindow::set_events(WindowEvents& events) {
   events_ = &events;
   drag_ = WindowDrag::kNone;
   wheel_ = 0.0f;
+  buttons_.clear();
 }
 
 void ViewWindow::on_key(int key, int scancode, int action, int modifiers) {
@@ -237,6 +280,8 @@ void ViewWindow::on_wheel(float notches) {
 
 void ViewWindow::on_button(int button, int action, int modifiers) {
   events_->on_mouse_button(button, action == GLFW_PRESS);
+  const auto [x_px, y_px] = cursor_px();
+  buttons_.add({static_cast<std::size_t>(button), action == GLFW_PRESS, x_px, y_px});
   if (action != GLFW_PRESS || panels_have_mouse()) {
     drag_ = WindowDrag::kNone;
     return;

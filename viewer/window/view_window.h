@@ -10,10 +10,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/base/result.h"
 #include "core/base/time.h"
 #include "viewer/panel/window_panel.h"
+#include "viewer/window/mouse_buttons.h"
 
 struct GLFWwindow;
 
@@ -66,15 +68,30 @@ class ViewWindow {
   Result<void> renew();
   // As if the driver had said so: for tests.
   void lose_context() { is_made_lost_ = true; }
+  // Notes that were shown in this window and are not shown again, also in the dances that follow.
+  struct ShownNotes {
+    bool slow_drawing = false;
+  };
+  ShownNotes& shown_notes() { return shown_notes_; }
   // As if it had been moved to a monitor of that rate: for tests.
   void set_refresh_hz(double refresh_hz) { told_refresh_hz_ = refresh_hz; }
 
   Size framebuffer_size() const;  // 0 when minimised
-  float scale() const;            // of the monitor that the window is on
-  double refresh_hz() const;      // of that monitor; 60 where it is not known
+  // The scale of letters and panels: the monitor's, times the one that the user has chosen.
+  float scale() const { return letter_scale_ * monitor_scale(); }
+  float monitor_scale() const;  // of the monitor that the window is on
+  void set_letter_scale(float letter_scale) { letter_scale_ = letter_scale; }
+  double refresh_hz() const;  // of that monitor; 60 where it is not known
   bool is_over() const;
+  // The whole monitor that the window is on, or back to its place.
+  void toggle_full_screen();
+  bool is_full_screen() const;
+  // Revokes a request to close the window, and brings it back if it is minimised.
+  void keep_open();
   GLFWwindow* handle() const { return window_; }
-  // Tells Dear ImGui where the mouse is: before each picture.
+  // Gives the current context of Dear ImGui the clipboard.
+  void lend_clipboard();
+  // Gives Dear ImGui the mouse and the clipboard: before each picture.
   void pass_input_to_panels();
 
  private:
@@ -87,15 +104,23 @@ class ViewWindow {
   void on_wheel(float notches);
   void on_cursor(double x, double y);
   void on_button(int button, int action, int modifiers);
+  std::pair<float, float> cursor_px() const;
 
   WindowEvents* events_;
   GLFWwindow* window_ = nullptr;
   bool tells_loss_ = false;  // glGetGraphicsResetStatus can be asked
   bool is_made_lost_ = false;
   std::optional<double> told_refresh_hz_;
+  float letter_scale_ = 1.0f;
+  struct Place {
+    int left = 0, top = 0, width = 0, height = 0;
+  };
+  Place place_;  // before the full screen
+  ShownNotes shown_notes_;
   bool is_tear_free_ = true;
   bool is_repeat_ = false;  // of the last key
   float wheel_ = 0.0f;      // notches that panels have not seen
+  MouseButtons buttons_;    // changes that panels have not seen
   WindowDrag drag_ = WindowDrag::kNone;
   double last_x_ = 0.0;
   double last_y_ = 0.0;

@@ -35,14 +35,14 @@ void VoiceKeys::work(const SceneState& scene, const std::optional<GuestId>& chos
   if (!wishes.is_talk_held && talks_.is_set()) tell(std::exchange(talks_, {}), "stop-talking", now);
   if (!mutes && !deafens && !wishes.is_talk_held) return;
   const SceneVoice* voice = find(scene, chosen);
-  if (voice == nullptr)
-    return say("no dance voice runs in this house; start it with: dance voice --guest NAME", now);
+  if (voice == nullptr) return say(texts_[Text::kDanceNoVoice], now);
+  if (voice->has_no_sound()) return say(texts_[Text::kBannerNoSound], now);
   if (mutes) tell(voice->guest, voice->is_muted ? "unmute" : "mute", now);
   if (deafens) tell(voice->guest, voice->is_deafened ? "undeafen" : "deafen", now);
   if (!wishes.is_talk_held) return;
-  if (!voice->is_push_to_talk) say("heard without the key: push to talk is off", now);
-  if (voice->is_muted) say("muted: U first, to be heard", now);
-  if (voice->is_deafened) say("deafened: J first, to be heard", now);
+  if (!voice->is_push_to_talk) say(texts_[Text::kVoiceKeyNotNeeded], now);
+  if (voice->is_muted) say(texts_[Text::kVoiceMuted], now);
+  if (voice->is_deafened) say(texts_[Text::kVoiceDeafened], now);
   if (!talks_.is_set()) talks_ = voice->guest, told_ = MonoTime();
   if (told_.is_set() && now - told_ < kTellsAgain) return;
   told_ = now;

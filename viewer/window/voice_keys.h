@@ -5,8 +5,8 @@
 // Units/frames: MonoTime of this process.
 // Ownership:    borrows what tells the voice.
 // Threads:      none inside; the drawing thread owns it. Telling does not wait.
-// Failure:      words() says, for a few seconds, that no dance voice runs here and how to start
-//               one, or why it could not be told.
+// Failure:      words() reports for a few seconds that no dance voice runs here or has no sound, or
+//               why a command could not be sent.
 #pragma once
 
 #include <functional>
@@ -17,6 +17,7 @@
 #include "core/base/result.h"
 #include "viewer/scene/scene.h"
 #include "viewer/window/window_state.h"
+#include "viewer/words/texts.h"
 
 namespace dance {
 
@@ -27,7 +28,7 @@ class VoiceKeys {
   static constexpr Duration kTellsAgain = Duration::ms(200);
   static constexpr Duration kWordsHold = Duration::s(5);
 
-  explicit VoiceKeys(Tell tell) : tell_(std::move(tell)) {}
+  VoiceKeys(Tell tell, Language language) : tell_(std::move(tell)), texts_(language) {}
 
   // Once for each picture: obeys the wishes.
   void work(const SceneState& scene, const std::optional<GuestId>& chosen, VoiceWishes& wishes,
@@ -41,6 +42,7 @@ class VoiceKeys {
   void say(std::string words, MonoTime now);
 
   Tell tell_;
+  Texts texts_;
   GuestId talks_;  // whose key is held; not set: none
   MonoTime told_;
   std::string words_;

@@ -47,13 +47,14 @@ void WindowExport::start(ExportKind kind) {
   if (replay == nullptr || replay->player() == nullptr || is_running()) return;
   const ReplayPlayer& player = *replay->player();
   ExportWish wish;
-  wish.log = options_.log;
+  wish.log = options_.log_to_read();
   wish.stage_only = options_.feed.stage_only;
   wish.index = replay->index();
   wish.from = player.range_begin();
   wish.to = player.range_end();
   wish.hz = options_.export_hz;
   wish.kind = kind;
+  if (kind == ExportKind::kVideo) wish.band = best_band_sound();
   if (view_.chosen()) wish.guest = *view_.chosen();
   const MonoTime begin = wish.index->begin;
   wish.path = free_name(options_.log, kind, (wish.from - begin).as_seconds(),
@@ -68,7 +69,7 @@ void WindowExport::start(ExportKind kind) {
     said_ = begun.error().what;
 }
 
-void WindowExport::step(PictureSize size, bool trails, StagePainter& painter) {
+void WindowExport::step(ViewPictureSize size, bool trails, StagePainter& painter) {
   if (!is_running()) {
     size_ = size;
     trails_ = trails;

@@ -29,7 +29,7 @@ class WindowExport {
   std::string cancel();
   // The present picture's size and whether hands leave trails in it, and a part of the work, drawn
   // by that painter.
-  void step(PictureSize size, bool trails, StagePainter& painter);
+  void step(ViewPictureSize size, bool trails, StagePainter& painter);
 
  private:
   void start(ExportKind kind);
@@ -42,7 +42,7 @@ class WindowExport {
   std::unique_ptr<ReplayExport> work_;
   std::unique_ptr<ExportPainter> pictures_;
   StagePainter* painter_ = nullptr;  // during step()
-  PictureSize size_;
+  ViewPictureSize size_;
   bool trails_ = false;
   std::string said_;
 };

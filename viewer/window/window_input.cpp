@@ -46,8 +46,18 @@ void WindowInput::obey(const WindowCommand& command) {
     case WindowAction::kTags:
       state_.shows_tags = !state_.shows_tags;
       return;
+    case WindowAction::kPlace:
+      state_.place = next_place(state_.place, command.step);
+      ++state_.place_changes;
+      return;
     case WindowAction::kHud:
       state_.shows_hud = !state_.shows_hud;
+      return;
+    case WindowAction::kFullScreen:
+      ++state_.full_screen_presses;
+      return;
+    case WindowAction::kPicture:
+      state_.dance.takes_picture = true;
       return;
     case WindowAction::kDisplayMode:
       state_.display = state_.display == DisplayMode::kTearFree ? DisplayMode::kLowLatency

@@ -21,6 +21,7 @@ class WindowInput final : public WindowEvents {
 
   void on_key(const KeyPress& press) override;
   void on_key_released(const KeyPress& press) override;
+  void on_character(unsigned int character) override { panels_.on_character(character); }
   void on_drag(WindowDrag drag, float right, float up) override;
   void on_wheel(float notches) override { director_.zoom(notches); }
 

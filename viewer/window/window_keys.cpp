@@ -17,81 +17,73 @@ struct Key {
 };
 
 struct Row {
-  std::string_view group;
+  Text group = Text::kCount;
   KeyHelp help;
   Key key = {};
   Key other = {};
-  // The keys that are left while a log is open, whose timeline has the arrows.
-  std::optional<std::string_view> with_log = {};
+  // The keys left while a log is open: its timeline uses the arrows.
+  std::optional<KeyHelp> with_log = {};
 };
 
 constexpr WindowCommand view(ViewMode mode) { return {WindowAction::kShowView, 1, mode}; }
 constexpr WindowCommand step(WindowAction action, int way) { return {action, way}; }
 
 constexpr std::array kRows{
-    Row{"Views",
-        {"V", "the next view; with shift the one before"},
-        {GLFW_KEY_V, {WindowAction::kNextView}}},
-    Row{"Views", {"O", "orbit: the whole stage"}, {GLFW_KEY_O, view(ViewMode::kOrbit)}},
-    Row{"Views", {"W", "walk behind a dancer"}, {GLFW_KEY_W, view(ViewMode::kFollow)}},
-    Row{"Views", {"M", "mirror of a dancer: left is left"}, {GLFW_KEY_M, view(ViewMode::kMirror)}},
-    Row{"Views",
-        {"P", "first person: a dancer's eyes"},
-        {GLFW_KEY_P, view(ViewMode::kFirstPerson)}},
-    Row{"Views",
-        {"C", "compare: as it comes, as it is staged"},
-        {GLFW_KEY_C, view(ViewMode::kCompare)}},
-    Row{"Views",
-        {"G", "grid: each dancer or couple by itself"},
-        {GLFW_KEY_G, view(ViewMode::kGrid)}},
+    Row{Text::kKeysViews, {"V", Text::kDoNextView}, {GLFW_KEY_V, {WindowAction::kNextView}}},
+    Row{Text::kKeysViews, {"O", Text::kDoStage}, {GLFW_KEY_O, view(ViewMode::kOrbit)}},
+    Row{Text::kKeysViews, {"W", Text::kDoWalk}, {GLFW_KEY_W, view(ViewMode::kFollow)}},
+    Row{Text::kKeysViews, {"M", Text::kDoMirror}, {GLFW_KEY_M, view(ViewMode::kMirror)}},
+    Row{Text::kKeysViews, {"P", Text::kDoEyes}, {GLFW_KEY_P, view(ViewMode::kFirstPerson)}},
+    Row{Text::kKeysViews, {"C", Text::kDoCompare}, {GLFW_KEY_C, view(ViewMode::kCompare)}},
+    Row{Text::kKeysViews, {"G", Text::kDoGrid}, {GLFW_KEY_G, view(ViewMode::kGrid)}},
 
-    Row{"Dancers",
-        {"Tab", "the next; with shift the one before"},
+    Row{Text::kKeysDancers,
+        {"Tab", Text::kDoNextDancer},
         {GLFW_KEY_TAB, step(WindowAction::kNextGuest, 1), true}},
-    Row{"Dancers",
-        {"Left  Right", "the one before, the next"},
+    Row{Text::kKeysDancers,
+        {"← →", Text::kDoPreviousDancer},
         {GLFW_KEY_RIGHT, step(WindowAction::kNextGuest, 1), true},
         {GLFW_KEY_LEFT, step(WindowAction::kNextGuest, -1), true},
-        ""},
-    Row{"Dancers", {"1 to 9", "the first to the ninth, by name"}},
-    Row{"Dancers",
-        {"F", "everybody, the camera as at first"},
-        {GLFW_KEY_F, {WindowAction::kStartOver}}},
+        KeyHelp{}},
+    Row{Text::kKeysDancers, {"1 – 9", Text::kDoChosen}},
+    Row{Text::kKeysDancers, {"F", Text::kDoEverybody}, {GLFW_KEY_F, {WindowAction::kStartOver}}},
 
-    Row{"Camera", {"Drag", "turn it"}},
-    Row{"Camera", {"Shift drag", "move it; the right button too"}},
-    Row{"Camera",
-        {"Wheel  Up  Down", "nearer, farther"},
+    Row{Text::kKeysCamera, {"", Text::kDoTurn, Text::kKeyDrag}},
+    Row{Text::kKeysCamera, {"", Text::kDoMove, Text::kKeyShiftDrag}},
+    Row{Text::kKeysCamera,
+        {"", Text::kDoNearer, Text::kKeyWheelArrows},
         {GLFW_KEY_UP, step(WindowAction::kZoom, 1), true},
         {GLFW_KEY_DOWN, step(WindowAction::kZoom, -1), true},
-        "Wheel"},
-    Row{"Camera", {"R", "rotate slowly, or stop"}, {GLFW_KEY_R, {WindowAction::kRotate}}},
+        KeyHelp{"", Text::kDoNearer, Text::kKeyWheel}},
+    Row{Text::kKeysCamera, {"R", Text::kDoRotate}, {GLFW_KEY_R, {WindowAction::kRotate}}},
 
-    Row{"Voice", {"B", "hold to talk (push to talk)"}, {GLFW_KEY_B, {WindowAction::kTalk}}},
-    Row{"Voice", {"U", "mute, or be heard again"}, {GLFW_KEY_U, {WindowAction::kMute}}},
-    Row{"Voice", {"J", "deafen, or hear again"}, {GLFW_KEY_J, {WindowAction::kDeafen}}},
+    Row{Text::kKeysVoice, {"B", Text::kDoTalk}, {GLFW_KEY_B, {WindowAction::kTalk}}},
+    Row{Text::kKeysVoice, {"U", Text::kDoMicrophone}, {GLFW_KEY_U, {WindowAction::kMute}}},
+    Row{Text::kKeysVoice, {"J", Text::kDoSpeaker}, {GLFW_KEY_J, {WindowAction::kDeafen}}},
 
-    Row{"Picture", {"T", "trails of hands"}, {GLFW_KEY_T, {WindowAction::kTrails}}},
-    Row{"Picture", {"N", "names"}, {GLFW_KEY_N, {WindowAction::kTags}}},
-    Row{"Picture", {"H", "figures"}, {GLFW_KEY_H, {WindowAction::kHud}}},
-    Row{"Picture",
-        {"D", "display: tear-free or low latency"},
-        {GLFW_KEY_D, {WindowAction::kDisplayMode}}},
-    Row{"Picture",
-        {"X", "extrapolate to the photon, or not"},
-        {GLFW_KEY_X, {WindowAction::kExtrapolate}}},
-    Row{"Picture", {"?  F1", "these keys"}},
+    Row{Text::kKeysPicture, {"T", Text::kDoTrails}, {GLFW_KEY_T, {WindowAction::kTrails}}},
+    Row{Text::kKeysPicture, {"N", Text::kDoNames}, {GLFW_KEY_N, {WindowAction::kTags}}},
+    Row{Text::kKeysPicture, {"Z", Text::kDoPlace}, {GLFW_KEY_Z, step(WindowAction::kPlace, 1)}},
+    Row{Text::kKeysPicture, {"K", Text::kDoPicture}, {GLFW_KEY_K, {WindowAction::kPicture}}},
+    Row{Text::kKeysPicture,
+        {"F11", Text::kDoFullScreen},
+        {GLFW_KEY_F11, {WindowAction::kFullScreen}}},
+    Row{Text::kKeysPicture, {"?  F1", Text::kDoKeys}},
     // Esc too, where nothing is open and no dance panel takes it: of a log.
-    Row{"Picture",
-        {"Q", "close the window"},
+    Row{Text::kKeysPicture,
+        {"Q", Text::kDoClose},
         {GLFW_KEY_Q, {WindowAction::kClose}},
         {GLFW_KEY_ESCAPE, {WindowAction::kClose}},
-        "Q  Esc"},
+        KeyHelp{"Q  Esc", Text::kDoClose}},
+
+    Row{Text::kKeysEngineers, {"H", Text::kDoMeasurements}, {GLFW_KEY_H, {WindowAction::kHud}}},
+    Row{Text::kKeysEngineers, {"D", Text::kDoDisplay}, {GLFW_KEY_D, {WindowAction::kDisplayMode}}},
+    Row{Text::kKeysEngineers, {"X", Text::kDoPredict}, {GLFW_KEY_X, {WindowAction::kExtrapolate}}},
 };
 
 struct Helps {
   std::array<KeyHelp, kRows.size()> rows{};
-  std::array<std::string_view, kRows.size()> groups{};
+  std::array<Text, kRows.size()> groups{};
   std::size_t count = 0;
 };
 
@@ -99,8 +91,8 @@ constexpr Helps helps(bool has_log) {
   Helps all;
   for (const Row& row : kRows) {
     KeyHelp help = row.help;
-    if (has_log && row.with_log) help.key = *row.with_log;
-    if (help.key.empty()) continue;
+    if (has_log && row.with_log) help = *row.with_log;
+    if (help.what == Text::kCount) continue;
     all.groups[all.count] = row.group;
     all.rows[all.count++] = help;
   }

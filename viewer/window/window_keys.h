@@ -25,7 +25,10 @@ enum class WindowAction {
   kRotate,
   kTrails,
   kTags,
+  kPlace,
   kHud,
+  kFullScreen,
+  kPicture,
   kDisplayMode,
   kExtrapolate,
   kTalk,  // while the key is held

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "viewer/words/texts.h"
+
 namespace dance {
 
 std::string swap_words(const SwapFigures& figures) {
@@ -28,7 +30,9 @@ void write_stage_notes(const ViewOptions& options, const std::string& house,
                        const std::string& view_words, bool focus_was_here, SceneState& scene) {
   if (scene.guests.empty() && !options.log.empty())
     scene.notes.push_back("nobody is on the stage at this moment of " + house);
-  else if (scene.guests.empty())
+  else if (scene.guests.empty() && !options.session.empty())
+    scene.notes.emplace_back(Texts(options.language)[Text::kStageEmpty]);
+  else if (scene.guests.empty())  // shown from a terminal
     scene.notes.push_back("nobody is on the stage of " + house +
                           " yet; bring dancers with: dance salsa, or dance replay FILE");
   else if (options.focus && !focus_was_here)
@@ -39,7 +43,7 @@ void write_stage_notes(const ViewOptions& options, const std::string& house,
 
 void write_figure_notes(const DisplayNews& news, SceneState& scene) {
   if (news.swap) scene.notes.push_back(swap_words(*news.swap));
-  scene.notes.push_back(display_words(news) + "   ? keys");
+  scene.notes.push_back(display_words(news));
 }
 
 }  // namespace dance

@@ -1,11 +1,14 @@
 #include "viewer/window/window_panels.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <filesystem>
 
+#include "core/control/role_control.h"
 #include "core/program/program.h"
+#include "producers/music/band/band_song.h"
 #include "producers/music/control/music_control.h"
+#include "viewer/chat/chat_panel.h"
 #include "viewer/dance_panel/dance_panel.h"
 #include "viewer/instruments/instrument_panel.h"
 #include "viewer/style_panel/style_panel.h"
@@ -17,33 +20,44 @@ namespace dance {
 namespace {
 
 DanceRecording::Options recording_options(const ViewOptions& options) {
-  const auto is_folder = [](const std::string& path) {
-    std::error_code ignored;
-    return std::filesystem::is_directory(path, ignored);
-  };
   return {program_folder() + "/dance-record",
-          recordings_folder([](const char* name) { return std::getenv(name); }, is_folder),
+          recordings_folder([](const char* name) { return std::getenv(name); }),
           options.feed.bus_url};
 }
 
 MusicDesk::Needs music_needs(const std::string& bus, std::shared_ptr<SessionFile> file) {
   MusicDesk::Needs needs;
   needs.plays_here = [bus] { return is_music_played(bus); };
-  needs.tell = [bus](double volume) { return tell_music_volume(bus, volume); };
+  needs.tell = [bus](double volume) {
+    MusicCommand command;
+    command.volume = volume;
+    return send_music_command(bus, command);
+  };
+  needs.control_band = [bus](BandRequest request, int style) {
+    using What = MusicCommand::What;
+    constexpr What kCommands[] = {What::kNext,   What::kPlay,  What::kPause, What::kSlower,
+                                  What::kFaster, What::kStyle, What::kLock,  What::kUnlock};
+    MusicCommand command;
+    command.what = kCommands[static_cast<std::size_t>(request)];
+    if (request == BandRequest::kStyle &&
+        !command.style.assign(name_of(static_cast<BandStyle>(style))))
+      return Result<void>();
+    return send_music_command(bus, command);
+  };
   if (!file) return needs;
   needs.volume = file->music_volume();
   needs.keep = [file](double volume) { return file->save_music_volume(volume); };
   return needs;
 }
 
-// Of a live house: a recorded dance is over.
-void add_dance_panel(const PanelNeeds& needs, const WindowPanel& at_right,
-                     std::shared_ptr<SessionFile> file, PanelStack& panels) {
+// Adds the panel of a live house and returns it; a recording has none: nullptr.
+DancePanel* add_dance_panel(const PanelNeeds& needs, const WindowPanel& at_right,
+                            std::shared_ptr<SessionFile> file, PanelStack& panels) {
   DanceBoard* board = needs.source.dance();
   const ViewOptions& options = needs.options;
   // Of files only where it, or its keys, are asked for.
   const bool is_asked = options.panel == "dance" || options.panel == "keys";
-  if (board == nullptr || (options.headless && !is_asked)) return;
+  if (board == nullptr || (options.headless && !is_asked)) return nullptr;
   DanceNeeds dance{*board,
                    needs.records,
                    needs.wishes,
@@ -56,6 +70,12 @@ void add_dance_panel(const PanelNeeds& needs, const WindowPanel& at_right,
   dance.tell_voice = [bus = options.feed.bus_url](const GuestId& guest, std::string_view command) {
     return tell_voice(bus, guest, command);
   };
+  dance.has_role = [bus = options.feed.bus_url](const GuestId& guest) {
+    return has_role_control(bus, guest);
+  };
+  dance.send_role = [bus = options.feed.bus_url](const GuestId& guest, std::string_view role) {
+    return send_role(bus, guest, dance_role_of(role).value_or(DanceRole::kEither));
+  };
   dance.wall = [] {
     return Duration::us(std::chrono::duration_cast<std::chrono::microseconds>(
                             std::chrono::system_clock::now().time_since_epoch())
@@ -64,7 +84,40 @@ void add_dance_panel(const PanelNeeds& needs, const WindowPanel& at_right,
   auto panel = std::make_unique<DancePanel>(std::move(dance));
   panel->yield_to(at_right);
   panel->open(options.panel == "dance");
+  DancePanel* const added = panel.get();
   panels.add(std::move(panel));
+  return added;
+}
+
+// The guest of this house in whose name this window sends chat: the one in focus, else the first.
+std::optional<GuestId> writer_of(const DanceRecords& records, const std::optional<GuestId>& focus) {
+  std::optional<GuestId> writer;
+  for (const DanceGuest& guest : records.guests())
+    if (!guest.is_remote && (!writer || guest.id == focus)) writer = guest.id;
+  return writer;
+}
+
+// The chat of a recording can be read, but nothing can be sent.
+void add_chat_panel(const PanelNeeds& needs, DancePanel* dance, PanelStack& panels) {
+  ChatNeeds chat;
+  chat.language = needs.options.language;
+  chat.bottom_px = [&panels](const PanelFrame& frame) { return panels.bottom_px(frame); };
+  if (dance != nullptr) {
+    chat.writer = [dance, focus = needs.options.focus] {
+      return writer_of(dance->records(), focus);
+    };
+    chat.send = [board = needs.source.dance()](const GuestId& guest, ChatKind kind,
+                                               std::string_view text) {
+      Chat written;
+      written.kind = kind;
+      if (written.text.assign(text)) board->write(guest, written);
+    };
+    chat.is_hidden = [dance, &hidden = needs.wishes.hidden](const GuestId& guest) {
+      return dance->records().is_voice_muted(guest) ||
+             std::ranges::find(hidden, guest) != hidden.end();
+    };
+  }
+  panels.add(std::make_unique<ChatPanel>(std::move(chat)));
 }
 
 }  // namespace
@@ -89,7 +142,8 @@ Result<void> add_panels(const PanelNeeds& needs, PanelStack& panels) {
   ReplaySource* replay = needs.source.replay();
   if (replay != nullptr && (!options.headless || options.panel == "timeline"))
     panels.add(std::make_unique<TimelinePanel>(*replay, needs.exporting));
-  add_dance_panel(needs, at_right, file, panels);
+  DancePanel* const dance = add_dance_panel(needs, at_right, file, panels);
+  if (!options.headless) add_chat_panel(needs, dance, panels);
   auto help = std::make_unique<HelpPanel>(panels, window_key_groups(replay != nullptr));
   if (options.panel == "keys") help->open();
   panels.add(std::move(help));

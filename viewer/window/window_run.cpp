@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <thread>
 #include <utility>
 
+#include "core/base/printable.h"
 #include "core/net/mono_clock.h"
 #include "core/program/talk.h"
+#include "viewer/dance_panel/recording.h"
 #include "viewer/gl/offscreen.h"
 #include "viewer/window/window_panels.h"
 #include "voice/control/voice_control.h"
@@ -17,9 +20,18 @@ namespace {
 // Events are waited for up to so short before poses are taken; the rest is slept exactly.
 constexpr Duration kFineWait = Duration::us(1'200);
 constexpr Duration kMinimised = Duration::ms(100);
+constexpr Duration kPictureWordsHold = Duration::s(6);
+constexpr Duration kPlaceNameHolds = Duration::s(3);
+constexpr Duration kHintHolds = Duration::s(12);
 constexpr Duration kFiguresHold = Duration::ms(500);  // else they cannot be read
 constexpr int kMostContextsLost = 20;
 constexpr Duration kLookAtMonitorAfter = Duration::s(1);
+
+Text text_of(Venue place) {
+  static_assert(static_cast<int>(Text::kPlaceTerrace) - static_cast<int>(Text::kPlacePlain) ==
+                static_cast<int>(Venue::kTerrace));
+  return static_cast<Text>(static_cast<int>(Text::kPlacePlain) + static_cast<int>(place));
+}
 
 Quality quality_of(QualityWish wish) {
   if (wish == QualityWish::kAuto) return is_software_rendering() ? Quality::kLow : Quality::kHigh;
@@ -48,6 +60,7 @@ Result<std::unique_ptr<WindowRun>> WindowRun::create(const ViewOptions& options,
     DANCE_TRY(run->window_,
               ViewWindow::create({options.size.width_px, options.size.height_px}, run->input_));
   }
+  run->state_.dance.knows_slow_drawing = run->window_->shown_notes().slow_drawing;
   if (auto made = run->make_painter(); !made) return tl::make_unexpected(made.error());
   if (!run->painter_->overlay().font_note().empty())
     talk::info("{}", run->painter_->overlay().font_note());
@@ -66,9 +79,11 @@ WindowRun::WindowRun(const ViewOptions& options, PictureSource& source)
     : options_(options),
       source_(source),
       director_(options.camera, options.view),
-      voice_keys_([&options](const GuestId& guest, std::string_view command) {
-        return tell_voice(options.feed.bus_url, guest, command);
-      }),
+      voice_keys_(
+          [&options](const GuestId& guest, std::string_view command) {
+            return tell_voice(options.feed.bus_url, guest, command);
+          },
+          options.language),
       path_(Duration::period_of_hz(60.0), path_options(options)),
       display_(options.display),
       begun_(mono_now()),
@@ -77,6 +92,8 @@ WindowRun::WindowRun(const ViewOptions& options, PictureSource& source)
   state_.extrapolates = options.extrapolates;
   state_.shows_hud = options.hud;
   state_.shows_tags = options.tags;
+  state_.place = place_to_draw(options);
+  director_.set_language(options.language);
   if (options.focus) director_.choose(*options.focus);
   director_.rig().set_turning(options.camera == CameraPreset::kAuto ||
                               options.camera == CameraPreset::kOrbit);
@@ -85,14 +102,18 @@ WindowRun::WindowRun(const ViewOptions& options, PictureSource& source)
 WindowRun::~WindowRun() = default;
 
 std::unique_ptr<ViewWindow> WindowRun::close(std::unique_ptr<WindowRun> run) {
+  if (run->window_->is_full_screen()) run->window_->toggle_full_screen();
+  run->window_->shown_notes().slow_drawing = run->state_.dance.knows_slow_drawing;
   return std::move(run->window_);  // what was drawn goes before it, while its context is current
 }
 
 Result<void> WindowRun::make_painter() {
   const Quality quality = draws_plainly_ ? Quality::kLow : quality_of(options_.quality);
   DANCE_TRY(painter_, StagePainter::create(quality, window_->scale()));
+  painter_->overlay().set_language(options_.language);
   drawing_.is_software = is_software_rendering();
   drawing_.is_plain = quality == Quality::kLow;
+  render_scale_ = RenderScale();
   painter_->renderer().build_meshes_beside();
   return {};
 }
@@ -128,6 +149,7 @@ Result<void> WindowRun::obey_wishes() {
   DanceWishes& wishes = state_.dance;
   state_.voice.mute_presses += std::exchange(wishes.mute_presses, 0);
   state_.voice.deafen_presses += std::exchange(wishes.deafen_presses, 0);
+  if (std::exchange(state_.full_screen_presses, 0) % 2 == 1) window_->toggle_full_screen();
   if (std::exchange(wishes.leaves, false)) state_.is_over = state_.has_left = true;
   if (!std::exchange(wishes.draws_plainly, false) || draws_plainly_) return {};
   draws_plainly_ = true;
@@ -135,8 +157,27 @@ Result<void> WindowRun::obey_wishes() {
   return make_painter();
 }
 
+// Closing the window once more while the question is open closes it.
+void WindowRun::ask_before_closing() {
+  Closing& closing = state_.dance.closing;
+  if (closing == Closing::kYes) state_.is_over = true;
+  const bool closes = window_->is_over() || (state_.is_over && !state_.has_left);
+  if (!options_.hosts_room || source_.dance() == nullptr || !closes || closing != Closing::kNo)
+    return;
+  closing = Closing::kAsked;
+  state_.is_over = false;
+  window_->keep_open();
+}
+
 Result<void> WindowRun::turn() {
+  auto turned = turn_to_next_picture();
+  ask_before_closing();  // also where an event came while poses were waited for
+  return turned;
+}
+
+Result<void> WindowRun::turn_to_next_picture() {
   window_->poll_events();
+  ask_before_closing();
   if (auto obeyed = obey_wishes(); !obeyed) return obeyed;
   if (window_->is_context_lost()) return renew_after_loss();
   if (state_.display != display_) apply_display_mode();
@@ -220,6 +261,16 @@ void WindowRun::write_notes(MonoTime now) {
   write_stage_notes(options_, source_.name(), director_.words(), focus_was_here_, scene_);
   if (const std::string& words = voice_keys_.words(now); !words.empty())
     scene_.notes.push_back(words);
+  if (picture_taken_.is_set() && now - picture_taken_ < kPictureWordsHold)
+    scene_.notes.push_back(picture_words_);
+  if (state_.place_changes != place_changes_shown_) {
+    place_changes_shown_ = state_.place_changes;
+    place_changed_ = now;
+  }
+  if (place_changed_.is_set() && now - place_changed_ < kPlaceNameHolds)
+    scene_.notes.emplace_back(Texts(options_.language)[text_of(state_.place)]);
+  if (now - begun_ < kHintHolds)
+    scene_.notes.emplace_back(Texts(options_.language)[Text::kKeysHint]);
   if (!state_.shows_hud) return;
   if (now - figures_since_ > kFiguresHold) {
     swap_figures_ = meter_.figures(now);
@@ -241,9 +292,15 @@ Result<void> WindowRun::draw(ViewWindow::Size size, Duration since_last) {
   write_notes(mono_now());
   painter_->overlay().set_scale(window_->scale());
   window_->pass_input_to_panels();
+  painter_->set_render_scale(scales_pictures() ? render_scale_.scale() : 1.0f);
   OverlayChoice choice{state_.shows_tags, state_.shows_hud};
   choice.panels = &panels_;
   choice.whole = &scene_;
+  if (state_.dance.takes_picture) {  // of the stage alone
+    choice.panels = nullptr;
+    choice.hud = false;
+    scene_.notes.clear();
+  }
   if (director_.comparison()) {
     painter_->renderer().set_light_yaw(director_.light_yaw_rad());
     return painter_->draw(*director_.comparison(), director_.camera(), size.width_px,
@@ -261,12 +318,15 @@ Result<void> WindowRun::show(ViewWindow::Size size) {
   // Cameras go on while a recording is paused, or jumps.
   const Duration since_last = last_picture_.is_set() ? times.taken - last_picture_ : Duration();
   last_picture_ = times.taken;
+  painter_->set_place(state_.place);
+  painter_->set_render_scale(1.0f);
   export_.step({size.width_px, size.height_px}, state_.shows_trails, *painter_);
   if (auto drawn = draw(size, since_last); !drawn) {
     // A driver that has lost its context refuses everything.
     if (window_->is_context_lost()) return renew_after_loss();
     return drawn;
   }
+  if (std::exchange(state_.dance.takes_picture, false)) take_picture(mono_now());
   painter_->present();
   glFinish();  // so that drawing is measured, and swap() waits for the display alone
   times.drawn = mono_now();
@@ -277,8 +337,32 @@ Result<void> WindowRun::show(ViewWindow::Size size) {
   return {};
 }
 
+void WindowRun::take_picture(MonoTime now) {
+  const auto save = [&]() -> Result<std::string> {
+    DANCE_TRY(const std::string path,
+              new_dance_file(recordings_folder([](const char* name) { return std::getenv(name); }),
+                             ".png"));
+    if (auto written = write_png(path, painter_->read()); !written)
+      return fail(written.error().what);
+    return path;
+  };
+  const auto saved = save();
+  const Texts texts(options_.language);
+  picture_words_ = saved ? texts.say(Text::kDancePictureKept, {printable(*saved)})
+                         : texts.say(Text::kDancePictureLost, {printable(saved.error().what)});
+  picture_taken_ = now;
+}
+
+// --quality high keeps all pixels.
+bool WindowRun::scales_pictures() const {
+  return drawing_.is_software && (draws_plainly_ || options_.quality != QualityWish::kHigh);
+}
+
 void WindowRun::report(const PictureTimes& times) {
   path_.on_picture(times);
+  if (scales_pictures() && !export_.is_running())
+    render_scale_.on_picture(times.drawn - times.taken, times.drawn);
+  drawing_.is_at_smallest_scale = !scales_pictures() || render_scale_.is_smallest();
   rate_.on_picture(times.swapped);
   for (const StageRoster::Fresh& fresh : roster_.fresh())
     if (fresh.pose.clock_id == this_clock_id() && fresh.pose.capture_time.is_set() &&

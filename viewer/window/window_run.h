@@ -14,6 +14,7 @@
 #include "viewer/avatar/user_avatars.h"
 #include "viewer/dance_panel/banner_watch.h"
 #include "viewer/display/display_path.h"
+#include "viewer/display/render_scale.h"
 #include "viewer/display/swap_meter.h"
 #include "viewer/feed/photon_predictor.h"
 #include "viewer/feed/picture_source.h"
@@ -74,6 +75,7 @@ class WindowRun {
   int contexts_lost() const { return contexts_lost_; }
   int pictures() const { return pictures_; }
   const DisplayPath& path() const { return path_; }
+  const RenderScale& render_scale() const { return render_scale_; }
 
  private:
   WindowRun(const ViewOptions& options, PictureSource& source);
@@ -84,12 +86,16 @@ class WindowRun {
   void wait_to_take();
   void take_poses(MonoTime now);
   Result<void> obey_wishes();
+  void ask_before_closing();
+  Result<void> turn_to_next_picture();
   void hide_guests();
   void choose_guest();
   void write_notes(MonoTime now);
   Result<void> draw(ViewWindow::Size size, Duration since_last);
   Result<void> show(ViewWindow::Size size);
   void report(const PictureTimes& times);
+  bool scales_pictures() const;
+  void take_picture(MonoTime now);
   MonoTime house_time(MonoTime now);
 
   const ViewOptions& options_;
@@ -110,6 +116,11 @@ class WindowRun {
   DisplayMode display_;       // that the window has been told
   double refresh_hz_ = 60.0;  // that the path goes by
   MonoTime monitor_looked_at_;
+  std::string picture_words_;  // about the last picture that was taken
+  MonoTime picture_taken_;
+  int place_changes_shown_ = 0;
+  MonoTime place_changed_;
+  RenderScale render_scale_;
   SwapMeter meter_;
   std::optional<SwapFigures> swap_figures_;
   MonoTime figures_since_;

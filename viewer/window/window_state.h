@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "viewer/dance_panel/dance_wishes.h"
+#include "viewer/scene/place.h"
 
 namespace dance {
 
@@ -27,7 +28,10 @@ struct WindowState {
   bool shows_tags = true;
   bool shows_trails = false;
   bool extrapolates = true;
+  Venue place = Venue::kStudio;
+  int place_changes = 0;  // how often a key has changed it
   DisplayMode display = DisplayMode::kTearFree;
+  int full_screen_presses = 0;  // since they were obeyed last
   VoiceWishes voice;
   DanceWishes dance;
   bool is_over = false;

@@ -18,6 +18,14 @@
       "¿Estuvo suspendido o se ajustó la hora? Los demás te vieron parado; se arregla solo.", \
       "Hat er geschlafen, oder wurde sie gestellt? Die anderen sahen dich stillstehen; es " \
       "gibt sich von selbst.") \
+  ROW(kBannerHostClosed, \
+      "{} has closed the room.", \
+      "{} ha cerrado la sala.", \
+      "{} hat den Raum geschlossen.") \
+  ROW(kBannerHostClosedCure, \
+      "If it opens again, you rejoin automatically.", \
+      "Si vuelve a abrirse, entrarás automáticamente.", \
+      "Wird er wieder geöffnet, bist du automatisch wieder dabei.") \
   ROW(kBannerKey, \
       "The server does not accept this house's key.", \
       "El servidor no acepta la clave de esta casa.", \
@@ -66,6 +74,16 @@
       "cierra ese programa.", \
       "Tritt ins Bild. Wurde die Kamera ausgesteckt, oder hat sie ein anderes Programm, so " \
       "stecke sie ein oder schließe es.") \
+  ROW(kBannerNoSound, \
+      "Your microphone cannot be reached: this computer's sound does not answer.", \
+      "No se puede acceder a tu micrófono: el sistema de sonido no responde.", \
+      "Dein Mikrofon ist nicht erreichbar: Das Soundsystem antwortet nicht.") \
+  ROW(kBannerNoSoundCure, \
+      "Is its sound server (PipeWire or PulseAudio) running? Once it is, the others hear " \
+      "you.", \
+      "¿Está en marcha el servidor de sonido (PipeWire o PulseAudio)? En cuanto lo esté, se te " \
+      "oirá.", \
+      "Läuft der Soundserver (PipeWire oder PulseAudio)? Sobald er läuft, hört man dich.") \
   ROW(kBannerNotTrusted, \
       "The server and this house do not trust each other.", \
       "El servidor y esta casa no se reconocen.", \
@@ -77,6 +95,17 @@
       "el servidor.", \
       "Eines der Zertifikate ist nicht von anerkannter Stelle unterschrieben: frage den " \
       "Betreiber des Servers.") \
+  ROW(kBannerServerKey, \
+      "The server has another key than before, so no dance was sent to it.", \
+      "El servidor tiene otra clave que antes, así que no se le ha enviado ningún baile.", \
+      "Der Server hat einen anderen Schlüssel als bisher; es wurde kein Tanz an ihn gesendet.") \
+  ROW(kBannerServerKeyCure, \
+      "Another machine may have taken its place. Ask its keeper whether the key has changed; " \
+      "if so, open a new invitation.", \
+      "Puede que otra máquina ocupe su lugar. Pregunta a quien lleva el servidor si ha " \
+      "cambiado la clave; si es así, abre una invitación nueva.", \
+      "Vielleicht hat ein anderer Rechner seinen Platz eingenommen. Frage den Betreiber, ob " \
+      "sich der Schlüssel geändert hat; wenn ja, öffne eine neue Einladung.") \
   ROW(kBannerRecording, \
       "The recording has ended.", \
       "La grabación se ha interrumpido.", \
@@ -104,6 +133,15 @@
       "This house may come back in {} min. Ask the host.", \
       "Esta casa podrá volver en {} min. Pregunta al anfitrión.", \
       "Dieses Haus darf in {} min zurückkommen. Frage den Gastgeber.") \
+  ROW(kBannerRoomClosed, \
+      "The room has been closed.", \
+      "La sala se ha cerrado.", \
+      "Der Raum wurde geschlossen.") \
+  ROW(kBannerRoomClosedCure, \
+      "The host has closed it. If it opens again, you rejoin automatically.", \
+      "El anfitrión la ha cerrado. Si vuelve a abrirla, entrarás automáticamente.", \
+      "Der Gastgeber hat ihn geschlossen. Öffnet er ihn wieder, bist du automatisch wieder " \
+      "dabei.") \
   ROW(kBannerServer, \
       "The server does not answer.", \
       "El servidor no responde.", \
@@ -112,49 +150,55 @@
       "Is the network there? The house goes on asking, and your dance goes on here.", \
       "¿Hay red? La casa sigue intentándolo y aquí el baile sigue.", \
       "Ist das Netz da? Das Haus fragt weiter, und hier geht der Tanz weiter.") \
-  ROW(kBannerSlow, \
-      "The picture is slow: {} a second.", \
-      "La imagen va lenta: {} por segundo.", \
-      "Das Bild ist langsam: {} pro Sekunde.") \
-  ROW(kBannerSlowCure, \
-      "This computer draws without a graphics card. A plainer picture is faster.", \
-      "Este ordenador dibuja sin tarjeta gráfica. Una imagen más sencilla va más rápida.", \
-      "Dieser Rechner zeichnet ohne Grafikkarte. Ein schlichteres Bild ist schneller.") \
-  ROW(kBannerSlowSmaller, \
-      "This computer draws without a graphics card. Make the window smaller.", \
-      "Este ordenador dibuja sin tarjeta gráfica. Haz la ventana más pequeña.", \
-      "Dieser Rechner zeichnet ohne Grafikkarte. Mache das Fenster kleiner.") \
-  ROW(kDanceCountIn, "Count in", "Contar la entrada", "Einzählen") \
+  ROW(kDanceJoined, "{} is here", "{} ha llegado", "{} ist da") \
+  ROW(kDanceCloseRoom, "Close the room", "Cerrar la sala", "Raum schließen") \
+  ROW(kDanceClosing, \
+      "This ends the room for {}.", \
+      "La sala se cerrará también para {}.", \
+      "Damit endet der Raum auch für {}.") \
+  ROW(kDanceCountIn, "Count in", "Cuenta de entrada", "Einzählen") \
   ROW(kDanceCountWaits, \
       "Count in: next bar", \
       "Cuenta: próximo compás", \
       "Einzählen: nächster Takt") \
   ROW(kDanceDrawPlainly, "Draw plainly", "Dibujar sencillo", "Schlicht zeichnen") \
   ROW(kDanceGuests, "Guests: {}", "Invitados: {}", "Gäste: {}") \
+  ROW(kDanceHearsNobody, "cannot hear you", "no te oye", "hört dich nicht") \
   ROW(kDanceHidden, "hidden", "oculto", "verborgen") \
   ROW(kDanceHide, "Hide", "Ocultar", "Verbergen") \
   ROW(kDanceKeep, "No", "No", "Nein") \
+  ROW(kDanceLeft, "{} has left", "{} se ha ido", "{} ist gegangen") \
   ROW(kDanceMicrophoneOff, "Microphone off", "Micrófono apagado", "Mikrofon aus") \
   ROW(kDanceMicrophoneOn, "Microphone on", "Micrófono encendido", "Mikrofon an") \
   ROW(kDanceMusic, "Music", "Música", "Musik") \
+  ROW(kDanceMusicMuted, "music muted", "música en silencio", "Musik stumm") \
   ROW(kDanceMusicVolume, "music {} %", "música {} %", "Musik {} %") \
   ROW(kDanceMute, "Mute voice", "Silenciar voz", "Stumm schalten") \
-  ROW(kDanceMuted, "muted", "sin voz", "stumm") \
+  ROW(kDanceMuted, "muted by you", "silenciado por ti", "von dir stumm gestellt") \
+  ROW(kDanceMutedSelf, "muted", "en silencio", "stumm") \
+  ROW(kDanceNoMicrophone, "no microphone", "sin micrófono", "ohne Mikrofon") \
   ROW(kDanceNoMusic, "No music", "Sin música", "Keine Musik") \
   ROW(kDanceNoVoice, \
-      "No voice runs in this house.", \
-      "En esta casa no hay voz.", \
-      "In diesem Haus läuft keine Stimme.") \
+      "You are not in the voice chat.", \
+      "No estás en el chat de voz.", \
+      "Du bist nicht im Sprachchat.") \
   ROW(kDanceNobody, \
       "Nobody else is here yet.", \
       "Aún no hay nadie más.", \
       "Noch ist niemand sonst da.") \
   ROW(kDancePanel, "In the dance", "En el baile", "Beim Tanz") \
+  ROW(kDancePicture, "Picture", "Foto", "Bild") \
+  ROW(kDancePictureKept, "Picture saved: {}", "Foto guardada: {}", "Bild gespeichert: {}") \
+  ROW(kDancePictureLost, \
+      "Picture not saved: {}", \
+      "Foto no guardada: {}", \
+      "Bild nicht gespeichert: {}") \
   ROW(kDanceRecord, "Record", "Grabar", "Aufnehmen") \
-  ROW(kDanceRecordEnds, "Saving...", "Guardando...", "Wird gesichert ...") \
+  ROW(kDanceRecordEnds, "Saving...", "Guardando...", "Wird gespeichert ...") \
   ROW(kDanceRecordStop, "Stop  {}", "Parar  {}", "Stopp  {}") \
   ROW(kDanceRecordTo, "Recording to {}", "Se graba en {}", "Aufnahme nach {}") \
-  ROW(kDanceRecorded, "Saved: {}", "Guardado: {}", "Gesichert: {}") \
+  ROW(kDanceRecorded, "Saved: {}", "Guardado: {}", "Gespeichert: {}") \
+  ROW(kDanceRecordedBy, "Being recorded by {}", "Grabando: {}", "Aufnahme läuft: {}") \
   ROW(kDanceRemove, "Remove", "Expulsar", "Entfernen") \
   ROW(kDanceRemoveAsked, \
       "The server is asked to remove {}.", \
@@ -193,34 +237,53 @@
       "¿Expulsar a {} por 10 minutos?", \
       "{} für 10 Minuten entfernen?") \
   ROW(kDanceRemoveUnheard, \
-      "This house's link did not take it.", \
-      "El enlace de esta casa no lo aceptó.", \
-      "Die Verbindung dieses Hauses nahm es nicht an.") \
+      "The link did not accept the request.", \
+      "El enlace no aceptó la petición.", \
+      "Die Verbindung hat die Anfrage nicht angenommen.") \
   ROW(kDanceShow, "Show", "Mostrar", "Zeigen") \
+  ROW(kDanceSlow, \
+      "Slow picture, {} a second: no graphics card here.", \
+      "Imagen lenta, {} por segundo: no hay tarjeta gráfica.", \
+      "Langsames Bild, {} pro Sekunde: keine Grafikkarte.") \
+  ROW(kDanceSlowPlain, \
+      "Slow picture, {} a second. A smaller window helps.", \
+      "Imagen lenta, {} por segundo. Una ventana más pequeña ayuda.", \
+      "Langsames Bild, {} pro Sekunde. Ein kleineres Fenster hilft.") \
   ROW(kDanceSpeakerOff, "Loudspeaker off", "Altavoz apagado", "Lautsprecher aus") \
   ROW(kDanceSpeakerOn, "Loudspeaker on", "Altavoz encendido", "Lautsprecher an") \
+  ROW(kDanceStay, "Stay", "Quedarse", "Bleiben") \
   ROW(kDanceTalkHint, "Hold B to talk", "Mantén B para hablar", "Zum Sprechen B halten") \
+  ROW(kDanceTalks, "talks", "habla", "spricht") \
   ROW(kDanceTalking, "You are heard", "Se te oye", "Du wirst gehört") \
-  ROW(kDanceTempo, "{} bpm", "{} ppm", "{} bpm") \
-  ROW(kDanceUnmute, "Unmute", "Activar voz", "Laut schalten") \
-  ROW(kDanceUnmuteMe, "Unmute me", "Activar mi micrófono", "Mich laut schalten") \
+  ROW(kDanceTempo, "{} BPM", "{} BPM", "{} BPM") \
+  ROW(kDanceUnmute, "Unmute", "Activar voz", "Stummschaltung aufheben") \
+  ROW(kDanceUnmuteMe, "Unmute me", "Activar mi micrófono", "Mein Mikrofon einschalten") \
   ROW(kDanceUntitled, "Music without a title", "Música sin título", "Musik ohne Titel") \
   ROW(kDanceVolume, "voice {} %", "voz {} %", "Stimme {} %") \
   ROW(kDanceYou, "You", "Tú", "Du") \
-  ROW(kDanceYours, "of this house", "de esta casa", "aus diesem Haus") \
-  ROW(kQualityFew, "moves coarsely: {} poses a second", \
-      "se mueve a saltos: {} posturas por segundo", \
-      "bewegt sich grob: {} Posen pro Sekunde") \
-  ROW(kQualityLate, "poses come {} ms late", "las posturas llegan {} ms tarde", \
-      "Posen kommen {} ms zu spät") \
-  ROW(kQualityLatePredicted, "poses come {} ms late: predicted", \
-      "las posturas llegan {} ms tarde: se predicen", \
-      "Posen kommen {} ms zu spät: vorhergesagt") \
-  ROW(kQualityLoses, "the line loses {} %: gaps are guessed", \
-      "la línea pierde {} %: se suplen huecos", "die Leitung verliert {} %: Lücken geschätzt") \
-  ROW(kQualitySilent, "nothing comes for {} s", "no llega nada desde hace {} s", \
-      "seit {} s kommt nichts") \
-  ROW(kQualityUneven, "an uneven line, by {} ms: shown later", \
-      "línea irregular, {} ms: se muestra después", \
-      "ungleichmäßige Leitung, {} ms: später gezeigt")
+  ROW(kDanceYours, "here with you", "aquí contigo", "hier bei dir") \
+  ROW(kVoiceDeafened, \
+      "Your loudspeaker is off. Press J first, to be heard.", \
+      "Tienes el altavoz apagado. Pulsa J para que te oigan.", \
+      "Dein Lautsprecher ist aus. Drücke erst J, damit man dich hört.") \
+  ROW(kVoiceKeyNotNeeded, \
+      "You are heard without the key.", \
+      "Se te oye sin pulsar la tecla.", \
+      "Man hört dich auch ohne die Taste.") \
+  ROW(kVoiceMuted, \
+      "You are muted. Press U first, to be heard.", \
+      "Estás en silencio. Pulsa U para que te oigan.", \
+      "Du bist stumm. Drücke erst U, damit man dich hört.") \
+  ROW(kQualityFew, "only {} poses a second", "solo {} posturas por segundo", \
+      "nur {} Posen pro Sekunde") \
+  ROW(kQualityLate, "{} ms delay", "{} ms de retraso", "{} ms Verzögerung") \
+  ROW(kQualityLatePredicted, "{} ms delay, predicted", \
+      "{} ms de retraso, predicho", \
+      "{} ms Verzögerung, vorhergesagt") \
+  ROW(kQualityLoses, "{} % packet loss", "{} % de paquetes perdidos", "{} % Paketverlust") \
+  ROW(kQualitySilent, "no data for {} s", "sin datos desde hace {} s", \
+      "seit {} s keine Daten") \
+  ROW(kQualityUneven, "{} ms jitter: shown later", \
+      "{} ms de fluctuación: se muestra más tarde", \
+      "{} ms Schwankung: wird später gezeigt")
 // clang-format on

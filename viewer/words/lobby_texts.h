@@ -17,9 +17,9 @@
   ROW(kLobbyPaste, "Paste", "Pegar", "Einfügen") \
   ROW(kLobbyOpenInvitation, "Open and dance", "Abrir y bailar", "Öffnen und tanzen") \
   ROW(kLobbyInvitationBad, \
-      "That is no whole invitation. Copy all of the line that begins with dance://.", \
-      "Eso no es una invitación completa. Copia toda la línea que empieza por dance://.", \
-      "Das ist keine ganze Einladung. Kopiere die ganze Zeile, die mit dance:// beginnt.") \
+      "This invitation is incomplete. Copy all of the line that begins with dance://.", \
+      "Esta invitación está incompleta. Copia toda la línea que empieza por dance://.", \
+      "Diese Einladung ist unvollständig. Kopiere die ganze Zeile, die mit dance:// beginnt.") \
   ROW(kLobbyInvitationFailed, \
       "The invitation could not be opened. Ask the person who sent it for another.", \
       "No se pudo abrir la invitación. Pide otra a quien te la envió.", \
@@ -31,59 +31,76 @@
   ROW(kLobbyHost, "Host a room", "Abrir una sala", "Raum öffnen") \
   ROW(kLobbyKeysHint, \
       "Arrow keys and Enter work everywhere", \
-      "Las flechas e Intro sirven en todo", \
-      "Pfeiltasten und Eingabe gehen überall") \
+      "Todo se maneja también con las flechas e Intro", \
+      "Alles geht auch mit Pfeiltasten und Eingabe") \
   ROW(kLobbyYouTitle, \
       "How the others see you", \
       "Cómo te ven los demás", \
       "Wie dich die anderen sehen") \
-  ROW(kLobbyDanceTitle, "With whom do you dance?", "¿Con quién bailas?", "Mit wem tanzt du?") \
+  ROW(kLobbyDanceTitle, "Who are you dancing with?", "¿Con quién bailas?", "Mit wem tanzt du?") \
   ROW(kLobbyHostTitle, \
       "A room on this computer", \
       "Una sala en este ordenador", \
       "Ein Raum auf diesem Rechner") \
   ROW(kLobbyYourName, "Your name", "Tu nombre", "Dein Name") \
-  ROW(kLobbyNameRule, \
-      "Small letters, digits and hyphens", \
-      "Letras minúsculas, cifras y guiones", \
-      "Kleinbuchstaben, Ziffern und Striche") \
+  ROW(kLobbyYourId, "ID in rooms: {}", "Tu ID en las salas: {}", "Kennung in Räumen: {}") \
   ROW(kLobbyYourHeight, "Your height", "Tu estatura", "Deine Größe") \
   ROW(kLobbyHeightNotSaid, \
       "as the camera sees it", \
       "según la cámara", \
       "wie die Kamera sie sieht") \
   ROW(kLobbyHeightMetres, "{} m", "{} m", "{} m") \
-  ROW(kLobbyWhoDances, "Who dances for you?", "¿Quién baila por ti?", "Wer tanzt für dich?") \
-  ROW(kLobbyFromCamera, "You, before a camera", "Tú, ante una cámara", "Du, vor einer Kamera") \
+  ROW(kLobbyWhoDances, \
+      "How do you want to dance?", \
+      "¿Cómo quieres bailar?", \
+      "Wie möchtest du tanzen?") \
+  ROW(kLobbyFromCamera, "Me, with my camera", "Yo, con mi cámara", "Ich, mit meiner Kamera") \
   ROW(kLobbyFromFile, "A recorded dance", "Un baile grabado", "Ein aufgenommener Tanz") \
-  ROW(kLobbyFromHeadset, "You, with a headset", "Tú, con un visor", "Du, mit Headset") \
+  ROW(kLobbyFromHeadset, "Me, with my headset", "Yo, con mi visor", "Ich, mit meinem Headset") \
   ROW(kLobbyHeadsetHow, \
       "Join, then put it on. In it, look at the back of your left wrist for the panel.", \
       "Entra y póntelo. Dentro, mira el dorso de tu muñeca izquierda para ver el panel.", \
       "Tritt bei und setz es auf. Darin zeigt ein Blick aufs linke Handgelenk die Tafel.") \
+  ROW(kLobbyNoHeadset, \
+      "No headset is ready. Start its program (SteamVR, Monado or WiVRn), then look again.", \
+      "No hay ningún visor listo. Inicia su programa (SteamVR, Monado o WiVRn) y busca de nuevo.", \
+      "Kein Headset ist bereit. Starte sein Programm (SteamVR, Monado oder WiVRn) und suche " \
+      "noch einmal.") \
+  ROW(kLobbyOnlyWatch, "Only watch", "Solo mirar", "Nur zusehen") \
+  ROW(kLobbyOnlyWatchNote, \
+      "You see the others dance; nothing of you is sent.", \
+      "Ves bailar a los demás; no se envía nada tuyo.", \
+      "Du siehst die anderen tanzen; von dir wird nichts gesendet.") \
+  ROW(kLobbyVideoFile, "A video…", "Un vídeo…", "Ein Video…") \
+  ROW(kLobbyMicrophoneUnreachable, \
+      "Your microphone cannot be reached: the others would not hear you.", \
+      "No se puede acceder a tu micrófono: los demás no te oirían.", \
+      "Dein Mikrofon ist nicht erreichbar: die anderen würden dich nicht hören.") \
+  ROW(kLobbyWithoutVoice, "Dance without voice", "Bailar sin voz", "Ohne Stimme tanzen") \
   ROW(kLobbyNoHeadsetBuilt, \
-      "This build knows no headsets.", \
-      "Esta versión no conoce visores.", \
-      "Diese Fassung kennt keine Headsets.") \
-  ROW(kLobbyFromNobody, "A made-up dancer", "Un bailarín inventado", "Eine erfundene Figur") \
+      "This version has no headset support.", \
+      "Esta versión no admite visores.", \
+      "Diese Version unterstützt keine Headsets.") \
+  ROW(kLobbyFromNobody, "A virtual dancer", "Un bailarín virtual", "Eine virtuelle Figur") \
   ROW(kLobbyFromElsewhere, "As written in the file", "Como dice el archivo", "Wie in der Datei") \
+  ROW(kLobbyAnyRole, "either role", "cualquier rol", "beide Rollen") \
   ROW(kLobbyLeads, "leads", "guía", "führt") \
   ROW(kLobbyFollows, "follows", "sigue", "folgt") \
   ROW(kLobbyFirstCamera, \
       "The first camera there is", \
       "La primera cámara que haya", \
       "Die erste Kamera, die da ist") \
-  ROW(kLobbyLookAgain, "Look again", "Mirar otra vez", "Noch einmal suchen") \
+  ROW(kLobbyLookAgain, "Look again", "Buscar de nuevo", "Noch einmal suchen") \
   ROW(kLobbyNoCamera, \
-      "There is no camera. Plug one in, or let a made-up dancer dance for you.", \
-      "No hay ninguna cámara. Conecta una, o deja que baile por ti un bailarín inventado.", \
-      "Hier ist keine Kamera. Schließe eine an, oder lass eine erfundene Figur für dich " \
+      "There is no camera. Plug one in, or let a virtual dancer dance for you.", \
+      "No hay ninguna cámara. Conecta una, o deja que baile por ti un bailarín virtual.", \
+      "Hier ist keine Kamera. Schließe eine an, oder lass eine virtuelle Figur für dich " \
       "tanzen.") \
   ROW(kLobbyNoCameraBuilt, \
-      "This DanceGraph was made without cameras. Choose a recorded or a made-up dancer.", \
-      "Este DanceGraph se hizo sin cámaras. Elige un baile grabado o un bailarín inventado.", \
+      "This DanceGraph was made without cameras. Choose a recorded dance or a virtual dancer.", \
+      "Este DanceGraph se hizo sin cámaras. Elige un baile grabado o un bailarín virtual.", \
       "Dieses DanceGraph kennt keine Kameras. Wähle einen aufgenommenen Tanz oder eine " \
-      "erfundene Figur.") \
+      "virtuelle Figur.") \
   ROW(kLobbyCameraTaken, \
       "The camera {} cannot be used: another program has it, or it is not yours to use. " \
       "Close that program, then look again.", \
@@ -97,7 +114,7 @@
       "Aún no has elegido nada", \
       "Noch nichts gewählt") \
   ROW(kLobbyYourFigure, "Your figure", "Tu figura", "Deine Figur") \
-  ROW(kLobbyMannequin, "Mannequin", "Maniquí", "Gliederpuppe") \
+  ROW(kLobbyMannequin, "Default figure", "Figura estándar", "Standardfigur") \
   ROW(kLobbyOwnFigure, "One of your own…", "Una tuya…", "Eine eigene…") \
   ROW(kLobbyVoice, "Voice", "Voz", "Stimme") \
   ROW(kLobbyTalk, "Talk with the others", "Hablar con los demás", "Mit den anderen sprechen") \
@@ -106,13 +123,12 @@
   ROW(kLobbyNo, "No", "No", "Nein") \
   ROW(kLobbyMicrophone, "Microphone", "Micrófono", "Mikrofon") \
   ROW(kLobbyLoudspeaker, "Loudspeaker", "Altavoz", "Lautsprecher") \
-  ROW(kLobbyUsualDevice, "The usual one", "El habitual", "Das übliche") \
-  ROW(kLobbyNow, "Dance now", "Bailar ahora", "Gleich tanzen") \
-  ROW(kLobbyAlone, "With a partner, alone", "A solas, con pareja", "Allein, mit Partner") \
+  ROW(kLobbyUsualDevice, "Default", "Predeterminado", "Standard") \
+  ROW(kLobbyDanceNow, "Dance now", "Bailar ya", "Jetzt tanzen") \
   ROW(kLobbyAloneNote, \
-      "A partner who is made up or recorded. Nobody else sees you.", \
-      "Una pareja inventada o grabada. Nadie más te ve.", \
-      "Ein erfundener oder aufgenommener Partner. Sonst sieht dich niemand.") \
+      "With a virtual or recorded partner. Nobody else sees you.", \
+      "Con una pareja virtual o grabada. Nadie más te ve.", \
+      "Mit einem virtuellen oder aufgenommenen Partner. Sonst sieht dich niemand.") \
   ROW(kLobbyPractise, "Practise", "Practicar", "Üben") \
   ROW(kLobbyPractiseNote, \
       "Your own music, and yourself as in a mirror.", \
@@ -122,13 +138,25 @@
   ROW(kLobbyRecordedPartner, "recorded…", "grabada…", "aufgenommen…") \
   ROW(kLobbyMusic, "Music", "Música", "Musik") \
   ROW(kLobbyNoMusic, "No music", "Sin música", "Keine Musik") \
-  ROW(kLobbyMirror, "Before a mirror", "Ante un espejo", "Vor dem Spiegel") \
+  ROW(kLobbyMusicSeeks, \
+      "The song starts once its beats are found. That can take half a minute.", \
+      "La canción empieza en cuanto se detecta su ritmo. Puede tardar medio minuto.", \
+      "Das Lied beginnt, sobald sein Takt erkannt ist. Das kann eine halbe Minute dauern.") \
+  ROW(kLobbyMirror, "Mirror view", "Vista de espejo", "Spiegelansicht") \
   ROW(kLobbyRooms, "Rooms you know", "Salas que conoces", "Räume, die du kennst") \
   ROW(kLobbyNoRooms, \
       "None yet: an invitation, or a room that you join, comes here.", \
       "Aún ninguna: aquí aparecen las salas a las que entras o te invitan.", \
       "Noch keiner: Einladungen und Räume, die du betrittst, stehen hier.") \
   ROW(kLobbyRoomAt, "{} at {}", "{} en {}", "{} bei {}") \
+  ROW(kLobbyOwnRoom, "{}, your room", "{}, tu sala", "{}, dein Raum") \
+  ROW(kLobbyOwnRoomClosed, "closed", "cerrada", "geschlossen") \
+  ROW(kLobbyOpenIt, "Open it", "Abrirla", "Öffnen") \
+  ROW(kLobbyRoomNotOpen, \
+      "The room {} does not answer. It is probably not open.", \
+      "La sala {} no responde. Seguramente no está abierta.", \
+      "Der Raum {} antwortet nicht. Wahrscheinlich ist er nicht geöffnet.") \
+  ROW(kLobbyTryAnyway, "Try anyway", "Intentarlo de todos modos", "Trotzdem versuchen") \
   ROW(kLobbyAsking, "asking…", "preguntando…", "wird gefragt…") \
   ROW(kLobbySilent, "does not answer", "no responde", "antwortet nicht") \
   ROW(kLobbyNear, "near: {} ms", "cerca: {} ms", "nah: {} ms") \
@@ -151,7 +179,34 @@
       "An invitation opens once. You will see who is in the room after that.", \
       "Una invitación se abre una sola vez. Después verás quién está en la sala.", \
       "Eine Einladung lässt sich einmal öffnen. Danach siehst du, wer im Raum ist.") \
-  ROW(kLobbyJoin, "Join", "Entrar", "Hinein") \
+  ROW(kLobbyAskJoin, \
+      "Join {} on {} as {}?", \
+      "¿Entrar en {}, en {}, como {}?", \
+      "Dem Raum {} auf {} als {} beitreten?") \
+  ROW(kLobbyAskMotion, \
+      "The others receive your motion, but not your voice.", \
+      "Los demás reciben tus movimientos, pero no tu voz.", \
+      "Die anderen bekommen deine Bewegungen, aber nicht deine Stimme.") \
+  ROW(kLobbyAskWatch, \
+      "You only watch and listen; nothing of you is sent.", \
+      "Solo miras y escuchas; no se envía nada tuyo.", \
+      "Du siehst und hörst nur zu; von dir wird nichts gesendet.") \
+  ROW(kLobbyAskMotionAndVoice, \
+      "The others receive your motion and your voice.", \
+      "Los demás reciben tus movimientos y tu voz.", \
+      "Die anderen bekommen deine Bewegungen und deine Stimme.") \
+  ROW(kLobbyAskNewKey, \
+      "Careful: this server has another key than the one you joined before, so it may be " \
+      "another machine. Join only if its host told you that the key has changed.", \
+      "Cuidado: este servidor tiene otra clave que aquel en el que entraste, así que puede ser " \
+      "otra máquina. Entra solo si quien lo lleva te dijo que la clave ha cambiado.", \
+      "Vorsicht: Dieser Server hat einen anderen Schlüssel als der bisherige und ist vielleicht " \
+      "ein anderer Rechner. Tritt nur ein, wenn der Gastgeber dir den Wechsel bestätigt hat.") \
+  ROW(kLobbyAskNew, \
+      "Until you join, camera and microphone stay off and nothing is sent.", \
+      "Hasta que entres, la cámara y el micrófono siguen apagados y no se envía nada.", \
+      "Bis du beitrittst, bleiben Kamera und Mikrofon aus, und nichts wird gesendet.") \
+  ROW(kLobbyJoin, "Join", "Entrar", "Beitreten") \
   ROW(kLobbyForget, "Forget", "Olvidar", "Vergessen") \
   ROW(kLobbyAskAgain, "Ask again", "Preguntar otra vez", "Noch einmal fragen") \
   ROW(kLobbyOtherRoom, "Another room", "Otra sala", "Ein anderer Raum") \
@@ -165,19 +220,19 @@
   ROW(kLobbyCloseRoom, "Close the room", "Cerrar la sala", "Raum schließen") \
   ROW(kLobbyRoomClosed, \
       "The room is closed. Opened, it lasts as long as this window.", \
-      "La sala está cerrada. Abierta, dura mientras esta ventana esté abierta.", \
-      "Der Raum ist zu. Geöffnet bleibt er offen, solange dieses Fenster offen ist.") \
-  ROW(kLobbyRoomOpening, "The room opens…", "La sala se abre…", "Der Raum öffnet…") \
+      "La sala está cerrada. Una vez abierta, se cierra al cerrar esta ventana.", \
+      "Der Raum ist geschlossen. Er bleibt offen, bis du dieses Fenster schließt.") \
+  ROW(kLobbyRoomOpening, "Opening the room…", "Abriendo la sala…", "Raum wird geöffnet…") \
   ROW(kLobbyRoomOpen, "The room is open.", "La sala está abierta.", "Der Raum ist offen.") \
   ROW(kLobbyReachedHere, \
-      "Others in your home reach it at", \
-      "Los de tu casa la encuentran en", \
-      "Wer bei dir im Haus ist, findet ihn unter") \
+      "Guests on your network use", \
+      "Desde tu propia red se entra por", \
+      "Im eigenen Netz erreichbar unter") \
   ROW(kLobbyReachedOutside, \
       "From elsewhere it is reached at your internet address. Your router must send UDP " \
       "port {} on to this computer, and a firewall here must let it in.", \
-      "Desde fuera se llega por tu dirección de internet. Tu rúter debe pasar el puerto " \
-      "UDP {} a este ordenador, y su cortafuegos debe dejarlo entrar.", \
+      "Desde fuera se llega por tu dirección de internet. Tu router debe redirigir el puerto " \
+      "UDP {} a este ordenador y el cortafuegos debe permitirlo.", \
       "Von außen erreicht man ihn unter deiner Internetadresse. Dein Router muss den " \
       "UDP-Port {} an diesen Rechner weitergeben, und die Firewall muss ihn hereinlassen.") \
   ROW(kLobbyWasReached, \
@@ -185,8 +240,7 @@
       "Alguien de fuera ha entrado: el camino desde fuera está abierto.", \
       "Von außen ist schon jemand gekommen: der Weg ist offen.") \
   ROW(kLobbyNotReached, \
-      "Whether the way from outside is open shows when the first guest from elsewhere " \
-      "comes in.", \
+      "You will know that guests from elsewhere can reach you when the first one joins.", \
       "Si el camino desde fuera está abierto se verá cuando entre la primera persona de " \
       "fuera.", \
       "Ob der Weg von außen offen ist, zeigt sich, wenn der erste Gast von außen kommt.") \
@@ -198,18 +252,32 @@
       "Your address, as guests reach you", \
       "Tu dirección para los invitados", \
       "Deine Adresse für die Gäste") \
-  ROW(kLobbyInvite, "Make an invitation", "Hacer una invitación", "Einladung machen") \
+  ROW(kLobbyInvite, "Make an invitation", "Hacer una invitación", "Einladung erstellen") \
   ROW(kLobbyInvitationNote, \
       "Send this line to {} alone: it opens the room for one person.", \
       "Envía esta línea solo a {}: abre la sala a una persona.", \
       "Schicke diese Zeile nur an {}: sie öffnet den Raum für eine Person.") \
   ROW(kLobbyWithdraw, "Withdraw", "Retirar", "Zurückziehen") \
+  ROW(kLobbyInvitedUntil, \
+      "not used yet, open until {}", \
+      "aún sin usar, vale hasta {}", \
+      "noch nicht benutzt, gilt bis {}") \
+  ROW(kLobbyInvitationUsed, "has come in", "ya ha entrado", "war schon da") \
+  ROW(kLobbyInvitationUsedUntil, \
+      "has come in; may come back until {}", \
+      "ya ha entrado; puede volver hasta {}", \
+      "war schon da; darf bis {} wiederkommen") \
+  ROW(kLobbyInvitationExpired, "expired", "caducada", "abgelaufen") \
+  ROW(kLobbyInviteSelf, \
+      "You are {} yourself: your guest needs another name.", \
+      "{} eres tú: tu invitado necesita otro nombre.", \
+      "{} bist du selbst: dein Gast braucht einen anderen Namen.") \
   ROW(kLobbyNoInvited, \
       "Nobody is invited yet.", \
       "Aún no hay invitados.", \
       "Noch ist niemand eingeladen.") \
-  ROW(kLobbyShowCommand, "Show the command", "Ver la orden", "Befehl zeigen") \
-  ROW(kLobbyHideCommand, "Hide the command", "Ocultar la orden", "Befehl verbergen") \
+  ROW(kLobbyShowCommand, "Show the command", "Ver el comando", "Befehl zeigen") \
+  ROW(kLobbyHideCommand, "Hide the command", "Ocultar el comando", "Befehl verbergen") \
   ROW(kLobbyCommandNote, \
       "The same, in a terminal:", \
       "Lo mismo, en una terminal:", \
@@ -221,7 +289,7 @@
       "Nothing of that kind in this folder.", \
       "No hay nada de eso en esta carpeta.", \
       "In diesem Ordner ist nichts davon.") \
-  ROW(kLobbyGoingIn, "Going in…", "Entrando…", "Es geht hinein…") \
+  ROW(kLobbyGoingIn, "Joining…", "Entrando…", "Beitreten…") \
   ROW(kLobbyGoingInNote, \
       "The first time takes some seconds.", \
       "La primera vez tarda unos segundos.", \
@@ -235,15 +303,32 @@
       "{} does not know you. Ask the person who runs it for a new invitation.", \
       "{} no te conoce. Pide otra invitación a quien lo lleva.", \
       "{} kennt dich nicht. Bitte die Person, die ihn betreibt, um eine neue Einladung.") \
+  ROW(kLobbyServerKeyChanged, \
+      "{} has another key than before and may be another machine. Ask the person who runs it; " \
+      "if the key has changed, open a new invitation.", \
+      "{} tiene otra clave que antes y puede ser otra máquina. Pregunta a quien lo lleva; si " \
+      "ha cambiado, abre una invitación nueva.", \
+      "{} hat einen anderen Schlüssel als bisher und ist vielleicht ein anderer Rechner. Frage " \
+      "die Person, die ihn betreibt; wenn er sich geändert hat, öffne eine neue Einladung.") \
+  ROW(kLobbyKeyExpired, \
+      "Your invitation to {} has expired. Ask the person who runs it for a new one.", \
+      "Tu invitación para {} ha caducado. Pide otra a quien lo lleva.", \
+      "Deine Einladung für {} ist abgelaufen. Bitte die Person, die ihn betreibt, um eine neue.") \
+  ROW(kLobbyKeyBusy, \
+      "Your key for {} is in use too often. Close another dance that uses it, then try again.", \
+      "Tu clave para {} se usa en demasiados sitios. Cierra otro baile e inténtalo de nuevo.", \
+      "Dein Schlüssel für {} ist zu oft in Gebrauch. Beende einen anderen Tanz damit.") \
   ROW(kLobbyNoKey, \
       "You have no invitation to {}. Ask the person who runs it for one.", \
-      "No tienes invitación para {}. Pídesela a quien lo lleva.", \
+      "No tienes invitación para {}. Pídesela a quien te invitó.", \
       "Du hast keine Einladung für {}. Bitte die Person, die ihn betreibt, um eine.") \
   ROW(kLobbyNameTaken, \
-      "Someone called {} is in the room already. Choose another name on the first page.", \
-      "Ya hay alguien llamado {} en la sala. Elige otro nombre en la primera página.", \
-      "Im Raum ist schon jemand, der {} heißt. Wähle auf der ersten Seite einen anderen " \
-      "Namen.") \
+      "{} is already in the room, perhaps from another of your computers. Try again to join as " \
+      "well.", \
+      "{} ya está en la sala, quizá desde otro ordenador tuyo. Inténtalo otra vez para entrar " \
+      "también.", \
+      "{} ist schon im Raum, vielleicht von einem anderen deiner Rechner aus. Versuche es noch " \
+      "einmal, um auch von hier beizutreten.") \
   ROW(kLobbyRoomFull, \
       "The room is full. Wait until someone leaves, or join another.", \
       "La sala está llena. Espera a que salga alguien, o entra en otra.", \
@@ -265,9 +350,9 @@
       "Un anfitrión te ha pedido que dejes esta sala un rato. Habla con el anfitrión.", \
       "Ein Gastgeber hat dich gebeten, den Raum für eine Weile zu verlassen. Sprich mit ihm.") \
   ROW(kLobbyNotForYou, \
-      "Your invitation is not for this room or this name. Ask for another one.", \
-      "Tu invitación no es para esta sala o este nombre. Pide otra.", \
-      "Deine Einladung gilt nicht für diesen Raum oder Namen. Bitte um eine andere.") \
+      "Your invitation is for another room, or for another guest. Ask for one of your own.", \
+      "Tu invitación es para otra sala o para otra persona. Pide una para ti.", \
+      "Deine Einladung gilt für einen anderen Raum oder jemand anderen. Bitte um eine eigene.") \
   ROW(kLobbyNotBegun, \
       "The dance did not begin. Try again.", \
       "El baile no ha empezado. Inténtalo otra vez.", \
@@ -277,18 +362,17 @@
       "El baile terminó por sí solo.", \
       "Der Tanz endete von selbst.") \
   ROW(kLobbySettingsBroken, \
-      "What was chosen could not be read. The old file was kept as {}.", \
-      "No se pudo leer lo elegido. El archivo anterior quedó como {}.", \
-      "Was gewählt war, ließ sich nicht lesen. Die alte Datei heißt jetzt {}.") \
+      "Your settings could not be read. The old file was kept as {}.", \
+      "No se pudieron leer tus ajustes. El archivo anterior quedó como {}.", \
+      "Deine Einstellungen ließen sich nicht lesen. Die alte Datei heißt jetzt {}.") \
   ROW(kLobbyNotSaved, \
-      "What you choose cannot be kept.", \
-      "Lo que eliges no se puede guardar.", \
-      "Was du wählst, lässt sich nicht behalten.") \
+      "Your settings cannot be saved.", \
+      "Tus ajustes no se pueden guardar.", \
+      "Deine Einstellungen lassen sich nicht speichern.") \
   ROW(kLobbyNoGraphics, \
       "There is no graphics card here: pictures are plain, and slow in a large window.", \
       "Aquí no hay tarjeta gráfica: la imagen es sencilla, y lenta en una ventana grande.", \
-      "Hier ist keine Grafikkarte: Bilder sind einfach, und in einem großen Fenster " \
-      "langsam.") \
+      "Hier ist keine Grafikkarte: Das Bild ist vereinfacht und ruckelt in großen Fenstern.") \
   ROW(kLobbyPortTaken, \
       "Port {} is taken: perhaps a room is open here already, in another window.", \
       "El puerto {} está ocupado: quizá ya hay una sala abierta en otra ventana.", \
@@ -301,5 +385,5 @@
   ROW(kLobbyInviteFailed, \
       "The invitation could not be made.", \
       "No se pudo hacer la invitación.", \
-      "Die Einladung ließ sich nicht machen.")
+      "Die Einladung ließ sich nicht erstellen.")
 // clang-format on

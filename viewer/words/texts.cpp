@@ -10,9 +10,10 @@ struct TextRow {
 };
 
 #define DANCE_TEXT_ROW(name, ...) TextRow{{__VA_ARGS__}},
-constexpr std::array kTextRows{DANCE_TEXTS(DANCE_TEXT_ROW)};
+// The size is given, because clang deduces it for 256 rows at most.
+constexpr std::array<TextRow, static_cast<std::size_t>(Text::kCount)> kTextRows{
+    {DANCE_TEXTS(DANCE_TEXT_ROW)}};
 #undef DANCE_TEXT_ROW
-static_assert(kTextRows.size() == static_cast<std::size_t>(Text::kCount));
 
 constexpr bool every_text_is_there() {
   for (const TextRow& row : kTextRows)

@@ -268,6 +268,8 @@ AvatarRig::AvatarRig(std::shared_ptr<const AvatarShape> shape_of_model, const Sk
     }
     dancer_feet = feet;
   }
+  const std::size_t head = index_of(Bone::kHead);
+  eyes_m = scale * (C[head] * (shape->eyes_M_m - shape->drivers_M_m[head]));
 }
 
 void AvatarRig::fold(Pose& pose) const {

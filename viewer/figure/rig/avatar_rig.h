@@ -50,6 +50,7 @@ struct AvatarRig {
   bool is_own_body = false;  // the avatar is the dancer's own mannequin
   BoneRotations C = identity_rotations();
   std::array<Eigen::Quaternionf, kFingerBoneCount> C_finger;
+  Eigen::Vector3f eyes_m = Eigen::Vector3f::Zero();  // from the head's joint, in its axes
   std::array<FootPoints, 2> dancer_feet, feet;
   std::array<Eigen::Vector3f, 2> dancer_palms_m, palms_m;      // from the wrist, in the hand's axes
   std::array<std::size_t, kFingerBoneCount> finger_leaders{};  // drivers

@@ -43,6 +43,7 @@ class ShapeMaker {
     shape_.drivers_M_m.assign(kFirstFreeDriver, Vector3f::Zero());
     name_bones();
     add_twists();
+    add_eyes();
     add_swings();
     add_followers();
     add_colliders();
@@ -117,6 +118,17 @@ class ShapeMaker {
         shape_.twists.push_back({add_driver(found[i].second), bone,
                                  static_cast<std::uint8_t>(i + 1),
                                  static_cast<std::uint8_t>(found.size() + 1)});
+    }
+  }
+
+  // Eyes that look by morphs are not turned as well.
+  void add_eyes() {
+    shape_.face = FaceMap(model_);
+    for (std::size_t eye = 0; eye < 2; ++eye) {
+      const int node = model_.eyes[eye];
+      const bool is_free = node >= 0 && driver_of_[static_cast<std::size_t>(node)] < 0;
+      if (is_free && !shape_.face.has_look())
+        shape_.eyes[eye] = static_cast<int>(add_driver(static_cast<std::size_t>(node)));
     }
   }
 
@@ -209,9 +221,17 @@ class ShapeMaker {
       shape_.hulls[side] = mesh.hull(side);
       shape_.hand_ends_M_m[side] = mesh.hand_end(side);
     }
-    shape_.face = FaceMap(model_);
-    for (std::size_t e = 0; e < model_.expressions.size(); ++e)
-      if (model_.expressions[e].name == "blink") shape_.blink = static_cast<int>(e);
+    shape_.eyes_M_m = eyes_M_m();
+  }
+
+  // A model without nodes for the eyes has them where a mannequin has them, in proportion to the
+  // head.
+  Vector3f eyes_M_m() const {
+    const auto [left, right] = model_.eyes;
+    if (left >= 0 && right >= 0)
+      return 0.5f *
+             (place(static_cast<std::size_t>(left)) + place(static_cast<std::size_t>(right)));
+    return shape_.at(Bone::kHead) + shape_.crown_m * Vector3f(0.0f, 0.45f, 0.4f);
   }
 
   const AvatarModel& model_;

@@ -92,9 +92,12 @@ struct AvatarShape {
   std::array<Eigen::Vector3f, 2> hand_ends_M_m;  // where the middle finger begins, or would
   float height_m = 1.7f;
   float crown_m = 0.2f;  // from the head's joint up to the highest of its mesh, at rest
-  int blink = -1;        // AvatarExpression
+  Eigen::Vector3f eyes_M_m = Eigen::Vector3f::Zero();  // between the eyes
+  std::array<int, 2> eyes{-1, -1};                     // drivers; -1 where no node turns the eye
   FaceMap face;
 
+  // True if a face moves any part of the figure.
+  bool has_face() const { return !face.is_empty() || eyes[0] >= 0 || eyes[1] >= 0; }
   const Eigen::Vector3f& at(Bone bone) const { return drivers_M_m[index_of(bone)]; }
   bool has(Bone bone) const { return has_bone[index_of(bone)]; }
 };

@@ -12,8 +12,36 @@ namespace {
 
 // With so many of ARKit's names a figure was made for them.
 constexpr int kEnough = 10;
-constexpr std::array<const char*, 8> kVrmNames{"aa", "ih",    "ou",        "ee",
-                                               "oh", "blink", "blinkLeft", "blinkRight"};
+
+// The abilities of both sets of names: a figure uses VRM's names for each ability that its ARKit
+// names lack.
+enum class Ability : std::uint8_t { kMouth, kLids, kSmile, kLook, kOther };
+constexpr std::size_t kAbilityCount = 5;
+
+struct VrmName {
+  const char* name;
+  Ability ability;
+};
+constexpr std::array<VrmName, 13> kVrmNames{{{"aa", Ability::kMouth},
+                                             {"ih", Ability::kMouth},
+                                             {"ou", Ability::kMouth},
+                                             {"ee", Ability::kMouth},
+                                             {"oh", Ability::kMouth},
+                                             {"blink", Ability::kLids},
+                                             {"blinkLeft", Ability::kLids},
+                                             {"blinkRight", Ability::kLids},
+                                             {"happy", Ability::kSmile},
+                                             {"lookUp", Ability::kLook},
+                                             {"lookDown", Ability::kLook},
+                                             {"lookLeft", Ability::kLook},
+                                             {"lookRight", Ability::kLook}}};
+
+Ability ability_of(std::string_view arkit_name) {
+  if (arkit_name.starts_with("eyeLook")) return Ability::kLook;
+  if (arkit_name.starts_with("eyeBlink")) return Ability::kLids;
+  if (arkit_name.starts_with("mouthSmile")) return Ability::kSmile;
+  return arkit_name == "jawOpen" ? Ability::kMouth : Ability::kOther;
+}
 
 // "eyeBlink_L" and "EyeBlinkLeft" are one name.
 std::string plain(std::string_view name) {
@@ -31,8 +59,21 @@ std::array<float, kExpressionCount + kVrmNames.size()> weights_of(const Face& fa
   std::array<float, kExpressionCount + kVrmNames.size()> weights{};
   std::copy(face.weight.begin(), face.weight.end(), weights.begin());
   const VrmFace vrm = vrm_face(face);
-  const std::array<float, kVrmNames.size()> of_vrm{
-      vrm.aa, vrm.ih, vrm.ou, vrm.ee, vrm.oh, vrm.blink, vrm.blink_left, vrm.blink_right};
+  using E = Expression;
+  const auto both = [&](E left, E right) { return 0.5f * (face[left] + face[right]); };
+  const std::array<float, kVrmNames.size()> of_vrm{vrm.aa,
+                                                   vrm.ih,
+                                                   vrm.ou,
+                                                   vrm.ee,
+                                                   vrm.oh,
+                                                   vrm.blink,
+                                                   vrm.blink_left,
+                                                   vrm.blink_right,
+                                                   both(E::kMouthSmileLeft, E::kMouthSmileRight),
+                                                   both(E::kEyeLookUpLeft, E::kEyeLookUpRight),
+                                                   both(E::kEyeLookDownLeft, E::kEyeLookDownRight),
+                                                   both(E::kEyeLookOutLeft, E::kEyeLookInRight),
+                                                   both(E::kEyeLookInLeft, E::kEyeLookOutRight)};
   std::copy(of_vrm.begin(), of_vrm.end(), weights.begin() + kExpressionCount);
   return weights;
 }
@@ -40,6 +81,26 @@ std::array<float, kExpressionCount + kVrmNames.size()> weights_of(const Face& fa
 }  // namespace
 
 FaceMap::FaceMap(const AvatarModel& model) {
+  std::array<bool, kAbilityCount> has_ability{};
+  if (add_arkit(model, has_ability) < kEnough) {
+    binds_.clear();
+    has_ability = {};
+  }
+  for (std::size_t v = 0; v < kVrmNames.size(); ++v) {
+    const VrmName& wanted = kVrmNames[v];
+    if (has_ability[static_cast<std::size_t>(wanted.ability)]) continue;
+    for (const AvatarExpression& expression : model.expressions)
+      if (expression.name == wanted.name) {
+        const auto source = static_cast<std::uint8_t>(kExpressionCount + v);
+        for (const AvatarExpression::Bind& bind : expression.binds)
+          binds_.push_back({source, bind.morph, bind.weight});
+        has_look_ = has_look_ || (wanted.ability == Ability::kLook && !expression.binds.empty());
+      }
+  }
+  has_look_ = has_look_ || has_ability[static_cast<std::size_t>(Ability::kLook)];
+}
+
+int FaceMap::add_arkit(const AvatarModel& model, std::span<bool> has_ability) {
   std::vector<std::string> morphs, expressions;
   for (const auto& morph : model.morphs) morphs.push_back(plain(morph.name));
   for (const auto& expression : model.expressions) expressions.push_back(plain(expression.name));
@@ -54,16 +115,11 @@ FaceMap::FaceMap(const AvatarModel& model) {
       if (binds_.size() == before && expressions[x] == wanted)
         for (const AvatarExpression::Bind& bind : model.expressions[x].binds)
           binds_.push_back({static_cast<std::uint8_t>(e), bind.morph, bind.weight});
-    found += binds_.size() > before ? 1 : 0;
+    if (binds_.size() == before) continue;
+    ++found;
+    has_ability[static_cast<std::size_t>(ability_of(kExpressionNames[e]))] = true;
   }
-  if (found >= kEnough) return;
-  binds_.clear();
-  for (std::size_t v = 0; v < kVrmNames.size(); ++v)
-    for (const AvatarExpression& expression : model.expressions)
-      if (expression.name == kVrmNames[v])
-        for (const AvatarExpression::Bind& bind : expression.binds)
-          binds_.push_back(
-              {static_cast<std::uint8_t>(kExpressionCount + v), bind.morph, bind.weight});
+  return found;
 }
 
 void FaceMap::add(const Face& face, std::span<float> morph_weights) const {

@@ -1,5 +1,5 @@
-// FaceMap: which of an avatar's morph targets a dancer's face moves: those with ARKit's names, or
-// expressions of these names; where a figure has too few of them, VRM's vowels and lids.
+// FaceMap: binds a dancer's face to an avatar's morph targets: those with ARKit's names, or
+// expressions of these names; for abilities without them VRM's vowels, lids, smile and look.
 //
 // Units/frames: weights 0…1.
 // Ownership:    owns its lists; refers to nothing.
@@ -21,6 +21,8 @@ class FaceMap {
   FaceMap() = default;
   explicit FaceMap(const AvatarModel& model);
   bool is_empty() const { return binds_.empty(); }
+  // True if morphs move the eyes.
+  bool has_look() const { return has_look_; }
   // Adds the face to the weights of the model's morphs.
   void add(const Face& face, std::span<float> morph_weights) const;
 
@@ -30,7 +32,11 @@ class FaceMap {
     std::uint32_t morph = 0;
     float weight = 1.0f;
   };
+  // Returns how many of ARKit's names the model has, and which abilities they cover.
+  int add_arkit(const AvatarModel& model, std::span<bool> has_ability);
+
   std::vector<Bind> binds_;
+  bool has_look_ = false;
 };
 
 }  // namespace dance

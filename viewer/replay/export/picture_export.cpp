@@ -1,12 +1,14 @@
-// A range as pictures of the stage, each in a file or all in a video.
+// A range as pictures of the stage, each in a file or all in a video, with the sound of the range.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <vector>
 
 #include "viewer/replay/export/export_source.h"
 #include "viewer/replay/export/video_file.h"
+#include "viewer/replay/sound/sound_track.h"
 
 namespace dance {
 namespace {
@@ -22,10 +24,13 @@ bool is_numbered(const std::string& name) {
 
 class PictureExport : public ReplayExport {
  public:
-  PictureExport(const ExportWish& wish, std::unique_ptr<ExportSource> source, Paint paint)
+  // `sound` is nullptr for an export without sound.
+  PictureExport(const ExportWish& wish, std::unique_ptr<ExportSource> source,
+                std::unique_ptr<SoundTrack> sound, Paint paint)
       : ReplayExport(wish.path),
         wish_(wish),
         source_(std::move(source)),
+        sound_(std::move(sound)),
         paint_(std::move(paint)),
         hz_(wish.hz > 0.0 ? wish.hz : kUsualPictures_hz) {
     // The moment of the end is not shown any more, as the next range may begin with it.
@@ -57,6 +62,10 @@ class PictureExport : public ReplayExport {
   }
 
   Result<bool> step() override {
+    if (sound_ != nullptr && search_ == SoundTrack::Search::kGoesOn) {
+      search_ = sound_->search();
+      return false;
+    }
     const MonoTime moment = wish_.from + Duration::seconds(static_cast<double>(at_) / hz_);
     SceneState scene;
     source_->show(moment, scene);
@@ -75,6 +84,7 @@ class PictureExport : public ReplayExport {
                   static_cast<long long>(count_), hz_);
     outcome_ = rate.data();
     if (video_) outcome_ += ", " + video_->encoder();
+    if (sound_) outcome_ += "; " + outcome_of_sound();
     return true;
   }
 
@@ -95,15 +105,41 @@ class PictureExport : public ReplayExport {
   // The first picture says how large it is.
   Result<void> add(const Picture& picture) {
     if (!video_) {
-      auto video = VideoFile::create(wish_.path, picture.width_px, picture.height_px, hz_);
-      if (!video) return tl::make_unexpected(video.error());
-      video_ = std::move(*video);
+      DANCE_TRY(video_, VideoFile::create(wish_.path, {picture.width_px, picture.height_px, hz_,
+                                                       search_ == SoundTrack::Search::kSound}));
     }
-    return video_->add(picture);
+    if (auto added = video_->add(picture); !added) return added;
+    return sound_ == nullptr ? Result<void>() : add_sound();
+  }
+  // Adds the sound of the last picture, up to the begin of the next. The sound of a silent video is
+  // read, too: only then is it known what is missing.
+  Result<void> add_sound() {
+    const double frames = static_cast<double>(at_ + 1) / hz_ * SoundTrack::kSoundRate_hz;
+    const auto end_frame = static_cast<std::int64_t>(std::llround(frames));
+    stereo_.resize(static_cast<std::size_t>(2 * (end_frame - sound_frames_)));
+    sound_frames_ = end_frame;
+    if (auto read = sound_->read(stereo_); !read) return read;
+    return video_->sound_encoder().empty() ? Result<void>() : video_->add_sound(stereo_);
+  }
+  std::string outcome_of_sound() const {
+    std::string text = "silent: no music of the house band and no voices in this range";
+    if (search_ == SoundTrack::Search::kSound)
+      text = "silent: FFmpeg here has no sound encoder for such a file";
+    if (!video_->sound_encoder().empty()) {
+      const std::string heard = sound_->description();
+      text =
+          (heard.empty() ? "nothing is heard" : "sound: " + heard) + ", " + video_->sound_encoder();
+    }
+    const std::string missing = sound_->missing();
+    return missing.empty() ? text : text + "; " + missing;
   }
 
   ExportWish wish_;
   std::unique_ptr<ExportSource> source_;
+  std::unique_ptr<SoundTrack> sound_;
+  SoundTrack::Search search_ = SoundTrack::Search::kGoesOn;
+  std::int64_t sound_frames_ = 0;
+  std::vector<float> stereo_;
   Paint paint_;
   double hz_;
   std::int64_t at_ = 0, count_ = 1;
@@ -120,7 +156,12 @@ Result<std::unique_ptr<ReplayExport>> begin_picture_export(const ExportWish& wis
   if (wish.kind == ExportKind::kVideo && std::filesystem::exists(wish.path, error))
     return fail(wish.path + ": is there already; remove it or choose another name");
   DANCE_TRY(auto source, ExportSource::open(wish));
-  auto pictures = std::make_unique<PictureExport>(wish, std::move(source), std::move(paint));
+  std::unique_ptr<SoundTrack> sound;
+  if (wish.kind == ExportKind::kVideo && !wish.is_silent) {
+    DANCE_TRY(sound, SoundTrack::open(wish.log, *wish.index, {wish.from, wish.to}, wish.band));
+  }
+  auto pictures =
+      std::make_unique<PictureExport>(wish, std::move(source), std::move(sound), std::move(paint));
   if (auto made = pictures->make_folder(); !made) return tl::make_unexpected(made.error());
   return pictures;
 }

@@ -1,5 +1,5 @@
 // Exports of a recording's range: as motion for other programs (BVH, GLB), or as pictures of the
-// stage (PNG sequence, video).
+// stage (PNG sequence, video with its sound).
 //
 // Units/frames: moments in the recorded house's clock; frames a second.
 // Ownership:    an export has a feed and a board of its own, so that the player stays where it is.
@@ -16,12 +16,14 @@
 #include "core/base/guest_id.h"
 #include "core/base/result.h"
 #include "formats/replay/replay_index.h"
+#include "producers/music/band/band_audio.h"
 #include "viewer/gl/picture.h"
 #include "viewer/scene/scene.h"
 
 namespace dance {
 
-enum class ExportKind { kBvh, kGlb, kPictures, kVideo };
+// Menus offer them in this order: the kinds that dancers use are first.
+enum class ExportKind { kVideo, kPictures, kGlb, kBvh };
 
 // By the name's ending: .bvh, .glb, .mp4 or .webm or .mkv, or a folder ("out/" or no ending).
 Result<ExportKind> export_kind(const std::string& path);
@@ -35,6 +37,8 @@ struct ExportWish {
   GuestId guest;    // of a BVH; not set: the only one
   std::string path;
   ExportKind kind = ExportKind::kGlb;
+  bool is_silent = false;  // a video without sound
+  BandSound band;          // plays the house band in a video
 };
 
 class ReplayExport {

@@ -8,18 +8,21 @@ namespace {
 
 class EncodedVideoFile : public VideoFile {
  public:
-  EncodedVideoFile(std::string path, int width_px, int height_px, std::unique_ptr<PartFile> part,
+  EncodedVideoFile(std::string path, const Format& format, std::unique_ptr<PartFile> part,
                    std::unique_ptr<VideoEncoder> encoder)
       : path_(std::move(path)),
-        width_px_(width_px),
-        height_px_(height_px),
+        format_(format),
         part_(std::move(part)),
         encoder_(std::move(encoder)) {}
 
   Result<void> add(const Picture& picture) override {
-    if (picture.width_px != width_px_ || picture.height_px != height_px_)
+    if (picture.width_px != format_.width_px || picture.height_px != format_.height_px)
       return fail(path_ + ": a picture has another size; keep the size while exporting");
     return encoder_->add(picture.rgb);
+  }
+
+  Result<void> add_sound(std::span<const float> stereo) override {
+    return encoder_->add_sound(stereo);
   }
 
   Result<void> finish() override {
@@ -28,11 +31,11 @@ class EncodedVideoFile : public VideoFile {
   }
 
   std::string encoder() const override { return encoder_->encoder(); }
+  std::string sound_encoder() const override { return encoder_->sound_encoder(); }
 
  private:
   std::string path_;
-  int width_px_;
-  int height_px_;
+  Format format_;
   std::unique_ptr<PartFile> part_;
   std::unique_ptr<VideoEncoder> encoder_;  // closed before its file may be removed
 };
@@ -44,21 +47,21 @@ std::string video_formats_here() {
   return module ? (*module)->video_formats() : "none: " + module.error().what;
 }
 
-Result<std::unique_ptr<VideoFile>> VideoFile::create(const std::string& path, int width_px,
-                                                     int height_px, double hz) {
+Result<std::unique_ptr<VideoFile>> VideoFile::create(const std::string& path,
+                                                     const Format& format) {
   const auto module = media_module();
   if (!module) return fail(path + ": " + module.error().what + "; or export a folder of pictures");
   DANCE_TRY(auto part, PartFile::create(path));
   VideoWish wish;
   wish.path = part->path();
   wish.name = path;
-  wish.width_px = width_px;
-  wish.height_px = height_px;
-  wish.hz = hz;
+  wish.width_px = format.width_px;
+  wish.height_px = format.height_px;
+  wish.hz = format.hz;
+  wish.has_sound = format.has_sound;
   auto encoder = (*module)->create_video(wish);
   if (!encoder) return tl::make_unexpected(encoder.error());
-  return std::make_unique<EncodedVideoFile>(path, width_px, height_px, std::move(part),
-                                            std::move(*encoder));
+  return std::make_unique<EncodedVideoFile>(path, format, std::move(part), std::move(*encoder));
 }
 
 }  // namespace dance

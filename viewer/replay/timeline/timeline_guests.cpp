@@ -7,6 +7,7 @@
 #include "formats/body/guest_look.h"
 #include "viewer/replay/timeline/timeline_ink.h"
 #include "viewer/scene/scene.h"
+#include "viewer/words/shown_name.h"
 
 namespace dance {
 namespace {
@@ -23,8 +24,9 @@ std::string seconds_text(Duration length) {
   return text.data();
 }
 
-constexpr std::array<const char*, 4> kKinds{"1  BVH: one dancer", "2  GLB: all dancers",
-                                            "3  PNG: a picture a frame", "4  video"};
+// By ExportKind.
+constexpr std::array<Text, 4> kKinds{Text::kExportVideo, Text::kExportPictures, Text::kExportGlb,
+                                     Text::kExportBvh};
 
 }  // namespace
 
@@ -46,7 +48,7 @@ void TimelinePanel::draw_guests(const Ink& ink, const Box& box) const {
     const bool is_own = i < box.rows;
     if (is_own)
       ink.clipped(box.left + 0.8f * em, box.bar_left - 0.3f * em, y + 0.02f * em, kDim,
-                  guest.id.c_str());
+                  shown_name(names_, guest.id, texts_).data());
     if (guest.last < scale_->from() || guest.first > scale_->to()) continue;
     const float from = x_within(guest.first);
     const float to = std::max(x_within(guest.last), from + 1.0f);
@@ -85,10 +87,11 @@ std::string TimelinePanel::gap_text(MonoTime moment, float y, const Box& box) co
     if (moment < gap.begin - Duration::seconds(near_s) ||
         moment > gap.end + Duration::seconds(near_s))
       continue;
-    return std::string(index.guests[gap.guest].id.view()) + ": nothing for " +
+    return std::string(shown_name(names_, index.guests[gap.guest].id, texts_)) + ": nothing for " +
            seconds_text(gap.end - gap.begin);
   }
-  return at < index.guests.size() && at < box.rows ? std::string(index.guests[at].id.view()) : "";
+  if (at >= index.guests.size() || at >= box.rows) return "";
+  return std::string(shown_name(names_, index.guests[at].id, texts_));
 }
 
 void TimelinePanel::draw_hover(const Ink& ink, const Box& box) const {
@@ -120,7 +123,7 @@ void TimelinePanel::draw_export(const Ink& ink, const Box& box) {
   if (asks_of_running_ && !runs) ask_about_export(false);  // it has ended meanwhile
   if (!asks_what_to_export_) return;
   const float em = ink.em();
-  const float width = 14.0f * em;
+  const float width = 19.0f * em;
   const float height = (runs ? 2.0f : static_cast<float>(kKinds.size())) * 1.7f * em + 2.4f * em;
   const float left = std::min(box.left + 20.0f * em, std::max(box.left, box.right - width));
   const ImVec2 low{left, box.top - height - 0.4f * em};
@@ -133,7 +136,7 @@ void TimelinePanel::draw_export(const Ink& ink, const Box& box) {
   const Ink menu{{*ImGui::GetWindowDrawList(), ink.font()}};
   menu.panel(low, {low.x + width, low.y + height});
   menu.left(low.x + 0.8f * em, low.y + 0.5f * em, kDim,
-            runs ? "an export is being written" : "export the loop, or all, as");
+            texts_[runs ? Text::kExportRuns : Text::kExportAsks]);
   float y = low.y + 2.0f * em;
   const auto choice = [&](const char* words) {
     ImGui::SetCursorScreenPos({low.x + 0.4f * em, y});
@@ -145,11 +148,11 @@ void TimelinePanel::draw_export(const Ink& ink, const Box& box) {
     return is_pressed;
   };
   if (runs) {
-    if (choice("Esc  cancel it")) exporting_.cancel(), ask_about_export(false);
-    if (choice("E  let it go on")) ask_about_export(false);
+    if (choice(texts_[Text::kExportCancel])) exporting_.cancel(), ask_about_export(false);
+    if (choice(texts_[Text::kExportGoesOn])) ask_about_export(false);
   } else {
     for (std::size_t i = 0; i < kKinds.size(); ++i)
-      if (choice(kKinds[i])) {
+      if (choice((std::to_string(i + 1) + "  " + texts_[kKinds[i]]).c_str())) {
         exporting_.start(static_cast<ExportKind>(i));
         ask_about_export(false);
       }

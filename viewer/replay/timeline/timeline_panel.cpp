@@ -15,17 +15,17 @@ namespace dance {
 namespace {
 
 constexpr std::array<KeyHelp, 11> kKeys{{
-    {"space", "play, pause"},
-    {", .", "a frame back, on"},
-    {"← →", "5 s back, on"},
-    {"shift ← →", "a beat back, on"},
-    {"ctrl ← →", "a bar back, on"},
-    {"Home End", "to the beginning, to the end"},
-    {"↓ ↑", "slower, faster: 0.1 to 4 times"},
-    {"[ ]", "the loop begins here, ends here"},
-    {"L", "loop on or off; with shift: forget it"},
-    {"E", "export the loop, or all; while it is written: cancel it"},
-    {"wheel", "over the timeline: a shorter or longer part of it"},
+    {"", Text::kDoPlay, Text::kKeySpace},
+    {", .", Text::kDoFrame},
+    {"← →", Text::kDoJump},
+    {"", Text::kDoBeat, Text::kKeyShiftArrows},
+    {"", Text::kDoBar, Text::kKeyControlArrows},
+    {"", Text::kDoEnds, Text::kKeyHomeEnd},
+    {"↓ ↑", Text::kDoSlower},
+    {"[ ]", Text::kDoLoopEdges},
+    {"L", Text::kDoLoop},
+    {"E", Text::kDoExport},
+    {"", Text::kDoZoomTime, Text::kKeyWheel},
 }};
 constexpr Duration kJump = Duration::s(5);
 
@@ -125,6 +125,8 @@ bool TimelinePanel::on_export_key(const KeyPress& press) {
 void TimelinePanel::draw(const PanelFrame& frame) {
   const std::size_t guests = source_.index() ? source_.index()->guests.size() : 0;
   const float em = letter_height(frame);
+  texts_ = Texts(frame.language);
+  names_ = frame.scene.names;
   const Box box(frame, em, guests);
   // A window of Dear ImGui's, so that it has the mouse where it is, and the camera elsewhere.
   ImGui::SetNextWindowPos({box.left, box.top});
@@ -149,6 +151,7 @@ void TimelinePanel::draw(const PanelFrame& frame) {
     draw_guests(ink, box);
     draw_hover(ink, box);
     draw_export(ink, box);
+    draw_tip(ink, box);
   } else {
     draw_waiting(ink, box);
   }
@@ -194,31 +197,49 @@ void TimelinePanel::use_mouse(const Box& box, ReplayPlayer& player) {
 void TimelinePanel::draw_controls(const Ink& ink, const Box& box, ReplayPlayer& player) {
   const float em = ink.em();
   float x = box.left + 0.6f * em;
-  const auto button = [&](const char* name, Icon icon, bool is_on = false) {
+  tip_ = Text::kCount;
+  const auto button = [&](const char* name, Icon icon, Text does, bool is_on = false) {
     const bool is_pressed = ink.button(name, {x, box.controls}, icon, is_on);
+    if (ImGui::IsItemHovered()) tip_ = does;
     x += 2.0f * em;
     return is_pressed;
   };
-  if (button("start", Icon::kStart)) player.go_to(player.index().begin);
-  if (button("back5", Icon::kBack)) player.jump(-kJump);
-  if (button("frame-", Icon::kFrameBack)) player.step_frames(-1);
-  if (button("play", player.is_playing() ? Icon::kPause : Icon::kPlay)) player.toggle_playing();
-  if (button("frame+", Icon::kFrameOn)) player.step_frames(1);
-  if (button("on5", Icon::kOn)) player.jump(kJump);
+  if (button("start", Icon::kStart, Text::kTipStart)) player.go_to(player.index().begin);
+  if (button("back5", Icon::kBack, Text::kTipBack)) player.jump(-kJump);
+  if (button("frame-", Icon::kFrameBack, Text::kTipFrameBack)) player.step_frames(-1);
+  if (button("play", player.is_playing() ? Icon::kPause : Icon::kPlay, Text::kDoPlay))
+    player.toggle_playing();
+  if (button("frame+", Icon::kFrameOn, Text::kTipFrameOn)) player.step_frames(1);
+  if (button("on5", Icon::kOn, Text::kTipOn)) player.jump(kJump);
   x += 0.6f * em;
-  if (button("begin", Icon::kLoopBegin, player.loop_begin().has_value())) player.set_loop_begin();
-  if (button("end", Icon::kLoopEnd, player.loop_end().has_value())) player.set_loop_end();
-  if (button("loop", Icon::kLoop, player.loops())) player.toggle_loop();
+  if (button("begin", Icon::kLoopBegin, Text::kTipLoopBegin, player.loop_begin().has_value()))
+    player.set_loop_begin();
+  if (button("end", Icon::kLoopEnd, Text::kTipLoopEnd, player.loop_end().has_value()))
+    player.set_loop_end();
+  if (button("loop", Icon::kLoop, Text::kTipLoop, player.loops())) player.toggle_loop();
   x += 0.6f * em;
-  if (button("slower", Icon::kMinus)) player.change_speed(-1);
+  if (button("slower", Icon::kMinus, Text::kTipSlower)) player.change_speed(-1);
   std::array<char, 16> speed{};
   std::snprintf(speed.data(), speed.size(), "%g×", player.speed());
   ink.middle(x + 1.1f * em, box.controls + 0.35f * em, kBright, speed.data());
   x += 2.3f * em;
-  if (button("faster", Icon::kPlus)) player.change_speed(1);
-  if (exporting_.start && button("export", Icon::kExport, asks_what_to_export_))
+  if (button("faster", Icon::kPlus, Text::kTipFaster)) player.change_speed(1);
+  if (exporting_.start && button("export", Icon::kExport, Text::kTipExport, asks_what_to_export_))
     ask_about_export(!asks_what_to_export_);
   draw_words(ink, box, player, x + 0.6f * em);
+}
+
+// Above the timeline, where the mouse is on a button.
+void TimelinePanel::draw_tip(const Ink& ink, const Box& box) const {
+  if (tip_ == Text::kCount) return;
+  const float em = ink.em();
+  const float width = ink.width_of(texts_[tip_]);
+  const float left = std::clamp(ImGui::GetIO().MousePos.x - 0.5f * width, box.left + em,
+                                std::max(box.left + em, box.right - width - em));
+  const float top = box.top - 2.2f * em;
+  const Ink above{{*ImGui::GetForegroundDrawList(), ink.font()}};
+  above.panel({left - 0.7f * em, top}, {left + width + 0.7f * em, top + 1.9f * em});
+  above.left(left, top + 0.4f * em, kBright, texts_[tip_]);
 }
 
 void TimelinePanel::draw_words(const Ink& ink, const Box& box, const ReplayPlayer& player,

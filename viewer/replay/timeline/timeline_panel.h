@@ -34,7 +34,7 @@ class TimelinePanel : public WindowPanel {
   explicit TimelinePanel(ReplaySource& source, Exporting exporting = {})
       : source_(source), exporting_(std::move(exporting)) {}
 
-  std::string_view title() const override { return "Recording"; }
+  Text title() const override { return Text::kKeysRecording; }
   std::span<const KeyHelp> keys() const override;
   // While it asks about exports.
   bool is_open() const override { return asks_what_to_export_; }
@@ -52,6 +52,7 @@ class TimelinePanel : public WindowPanel {
   void ask_about_export(bool asks);
   void draw_waiting(const Ink& ink, const Box& box) const;
   void draw_controls(const Ink& ink, const Box& box, ReplayPlayer& player);
+  void draw_tip(const Ink& ink, const Box& box) const;
   void draw_words(const Ink& ink, const Box& box, const ReplayPlayer& player, float left) const;
   void draw_bar(const Ink& ink, const Box& box, const ReplayPlayer& player) const;
   void draw_density(const Ink& ink, const Box& box) const;
@@ -63,6 +64,9 @@ class TimelinePanel : public WindowPanel {
   std::string gap_text(MonoTime moment, float y, const Box& box) const;
 
   ReplaySource& source_;
+  Texts texts_{Language::kEnglish};
+  ShownNames names_;         // those of the last picture
+  Text tip_ = Text::kCount;  // of the button under the mouse; kCount: none
   Exporting exporting_;
   std::optional<TimelineScale> scale_;
   MonoTime followed_;

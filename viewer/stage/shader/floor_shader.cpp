@@ -13,15 +13,7 @@ void main() {
 }
 )";
 
-// Planks of oak with a line every metre; what is too fine for a pixel fades instead of flickering.
-const std::string_view kFloorFragment = R"(
-uniform vec3 u_centre;
-uniform float u_pool;  // radius of the pool of light, m
-uniform float u_reflect;
-uniform vec3 u_pulse;  // radius of the beat's ring in m, its strength, that of the glow
-in vec3 v_p;
-out vec4 o_colour;
-
+const std::string_view kFloorDetail = R"(
 float hash(vec2 p) { return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453); }
 
 float line(float x, float period, float half_width) {
@@ -30,6 +22,16 @@ float line(float x, float period, float half_width) {
   float cover = 1.0 - smoothstep(half_width - 0.5 * w, half_width + w, d);
   return cover * clamp(2.0 * half_width / max(w, 1e-5), 0.0, 1.0);
 }
+)";
+
+// Planks of oak with a line every metre; what is too fine for a pixel fades instead of flickering.
+const std::string_view kFloorFragment = R"(
+uniform vec3 u_centre;
+uniform float u_pool;  // radius of the pool of light, m
+uniform float u_reflect;
+uniform vec3 u_pulse;  // radius of the beat's ring in m, its strength, that of the glow
+in vec3 v_p;
+out vec4 o_colour;
 
 void main() {
   vec2 p = v_p.xz;

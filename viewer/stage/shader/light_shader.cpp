@@ -3,18 +3,17 @@
 namespace dance::shaders {
 
 // A key light with soft shadow from one side, a hemisphere that fills, and a rim that lifts bodies
-// off the backdrop. Colours and strengths were chosen by eye.
+// off the backdrop. Their colours come from StageMood.
 const std::string_view kLight = R"(
 uniform vec3 u_eye;
 uniform vec3 u_to_light;
 uniform mat4 u_light_from_world;
 uniform float u_penumbra;  // share of the shadow map
 uniform sampler2DShadow u_shadow;
-
-const vec3 kKey = vec3(1.50, 1.34, 1.12);
-const vec3 kSky = vec3(0.42, 0.46, 0.55);
-const vec3 kBounce = vec3(0.30, 0.22, 0.16);
-const vec3 kRim = vec3(0.55, 0.62, 0.80);
+uniform vec3 u_key;
+uniform vec3 u_sky;
+uniform vec3 u_bounce;
+uniform vec3 u_rim;
 
 // Vogel's disk: taps evenly spread over the penumbra.
 float lit_by_key(vec3 p, vec3 n) {
@@ -34,7 +33,7 @@ vec3 shade(vec3 albedo, vec3 p, vec3 n, float gloss, float ambient_open) {
   vec3 v = normalize(u_eye - p);
   float facing = dot(n, u_to_light);
   float key = facing > 0.0 ? facing * lit_by_key(p, n) : 0.0;
-  vec3 fill = mix(kBounce, kSky, 0.5 + 0.5 * n.y) * ambient_open;
+  vec3 fill = mix(u_bounce, u_sky, 0.5 + 0.5 * n.y) * ambient_open;
   // A second, weak light from behind the key's other side keeps forms round in the shade.
   vec3 back = vec3(-u_to_light.x, 0.35, -u_to_light.z);
   fill += 0.16 * vec3(0.9, 0.95, 1.1) * max(dot(n, normalize(back)), 0.0);
@@ -42,7 +41,7 @@ vec3 shade(vec3 albedo, vec3 p, vec3 n, float gloss, float ambient_open) {
   float sharp = mix(12.0, 90.0, gloss);
   float glint = gloss * key * pow(max(dot(n, h), 0.0), sharp);
   float rim = pow(1.0 - max(dot(n, v), 0.0), 3.0) * smoothstep(-0.4, 0.6, n.y);
-  return albedo * (kKey * key + fill) + kKey * 0.6 * glint + kRim * (0.06 + 0.25 * albedo) * rim;
+  return albedo * (u_key * key + fill) + u_key * 0.6 * glint + u_rim * (0.06 + 0.25 * albedo) * rim;
 }
 
 // Darker overhead, with a warm glow low down; the same below the horizon, as the floor mirrors it.

@@ -23,8 +23,9 @@ extern const std::string_view kFigureVertex;  // after kFigureSkin
 extern const std::string_view kFigureFragment;
 extern const std::string_view kFigureShadowVertex;    // after kFigureSkin
 extern const std::string_view kFigureShadowFragment;  // wants HAS_PICTURE, ALPHA, IS_FADING
+extern const std::string_view kFloorDetail;  // hash(), line(): precedes the fragments of floors
 extern const std::string_view kFloorVertex;
-extern const std::string_view kFloorFragment;  // after kLight; wants IS_PLAIN (0, 1)
+extern const std::string_view kFloorFragment;  // after kLight, kFloorDetail; needs IS_PLAIN (0, 1)
 extern const std::string_view kSpotVertex;
 extern const std::string_view kSpotFragment;
 extern const std::string_view kWaitingFragment;  // after kSpotVertex: a ring of light
@@ -32,6 +33,16 @@ extern const std::string_view kRibbonVertex;
 extern const std::string_view kRibbonFragment;
 extern const std::string_view kScreenVertex;      // one triangle over the whole picture
 extern const std::string_view kBackdropFragment;  // after kLight
-extern const std::string_view kFinishFragment;    // tone, vignette, sRGB, dither
+extern const std::string_view kPlaceVertex;
+extern const std::string_view kPlaceFragment;
+extern const std::string_view kPlaceFloorVertex;
+extern const std::string_view kPlaceFloorFragment;  // as kFloorFragment; needs IS_TILES (0, 1) too
+extern const std::string_view kHaloVertex;
+extern const std::string_view kHaloFragment;
+extern const std::string_view kLimbVertex;
+extern const std::string_view kLimbFragment;
+extern const std::string_view kSkyVertex;  // as kScreenVertex, behind all else
+extern const std::string_view kSkyFragment;
+extern const std::string_view kFinishFragment;  // tone, vignette, sRGB, dither
 
 }  // namespace dance::shaders

@@ -2,9 +2,7 @@
 // time alone, so that all screens show the same and a picture made again is the same.
 //
 // Units/frames: 0 = open … 1 = shut.
-// Ownership:    none.
 // Threads:      any.
-// Failure:      none.
 #pragma once
 
 #include "core/base/guest_id.h"
