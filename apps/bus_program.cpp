@@ -7,7 +7,6 @@ namespace dance {
 Result<BusProgram> BusProgram::open(const std::string& bus_url) {
   BusProgram program;
   DANCE_TRY(program.poller_, Poller::create());
-  // Before the bus, whose thread inherits the blocked signals.
   if (auto blocked = program.poller_->stop_on_signals(); !blocked)
     return tl::make_unexpected(blocked.error());
   DANCE_TRY(program.bus_, Bus::open(bus_url));

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "apps/bus_program.h"
+#include "core/control/house_publisher.h"
 #include "core/net/mono_clock.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
@@ -40,13 +41,14 @@ Result<void> choose_for_guest(const ChooseOptions& options) {
   for (const std::string& note : chosen.notes) talk::info("{}: {}", options.choice.what, note);
   DANCE_TRY(BusProgram program, BusProgram::open(options.bus_url));
   chosen.avatar.clock_id = chosen.file.clock_id = this_clock_id();
+  HousePublisher port(program.bus(), program.bus().url(), program.poller());
   std::set<std::int64_t> times_said;  // µs, as on the bus
   const auto publish = [&] {
     chosen.avatar.time = chosen.file.time = mono_now();
     times_said.insert(chosen.avatar.time.since_zero_us());
     if (times_said.size() > kTimesKept) times_said.erase(times_said.begin());
-    program.bus().publish(Channel::of(Signal::kAvatar, Where::kCapture, *guest), chosen.avatar);
-    program.bus().publish(Channel::of(Signal::kAvatarFile, Where::kCapture, *guest), chosen.file);
+    port.publish(Channel::of(Signal::kAvatar, Where::kCapture, *guest), chosen.avatar);
+    port.publish(Channel::of(Signal::kAvatarFile, Where::kCapture, *guest), chosen.file);
   };
   bool keeps_avatar = false;
   bool is_kept = false;

@@ -7,7 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "core/base/printable.h"
+#include "core/base/text/plain_text.h"
+#include "core/program/confinement.h"
 #include "core/program/program.h"
 #include "core/program/whole_file.h"
 #include "formats/avatar/avatar_reader.h"
@@ -71,7 +72,7 @@ Result<void> info(const InfoOptions& options) {
   const std::span<const std::uint8_t> file(reinterpret_cast<const std::uint8_t*>(bytes.data()),
                                            bytes.size());
   const std::string name = options.file.substr(options.file.rfind('/') + 1);
-  auto facts = avatar_facts(file, name);
+  auto facts = run_confined([&] { return avatar_facts(file, name); });
   if (!facts) return fail(options.file + ": " + facts.error().what);
   std::fputs((options.json ? json_of(*facts) : text_of(*facts)).c_str(), stdout);
   return {};
@@ -83,9 +84,9 @@ Result<AvatarFacts> avatar_facts(std::span<const std::uint8_t> file, const std::
   DANCE_TRY(const ReadAvatar read, read_avatar(file, {}, name));
   const AvatarModel& model = read.model;
   AvatarFacts facts;
-  facts.name = printable(model.name);
+  facts.name = plain_text(model.name);
   facts.kind = kind_of(file);
-  facts.licence = printable(model.licence);
+  facts.licence = plain_text(model.licence);
   facts.file_bytes = file.size();
   facts.height_m = height_of(model);
   facts.triangles = model.triangles.size() / 3;
@@ -105,11 +106,11 @@ Result<AvatarFacts> avatar_facts(std::span<const std::uint8_t> file, const std::
   for (const int finger : model.fingers) facts.finger_bones += finger >= 0 ? 1 : 0;
   facts.has_eyes = model.eyes[0] >= 0 && model.eyes[1] >= 0;
   for (const AvatarExpression& expression : model.expressions)
-    facts.expressions.push_back(printable(expression.name));
+    facts.expressions.push_back(plain_text(expression.name));
   facts.springs = model.springs.size();
   for (const AvatarSpring& spring : model.springs) facts.spring_joints += spring.joints.size();
   facts.colliders = model.colliders.size();
-  for (const std::string& note : read.notes) facts.notes.push_back(printable(note));
+  for (const std::string& note : read.notes) facts.notes.push_back(plain_text(note));
   return facts;
 }
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "apps/convert/counted.h"
 #include "consumers/output_file.h"
 #include "formats/bvh/bvh.h"
+#include "formats/recorded/counted.h"
 #include "formats/recording/steady_clip.h"
 
 namespace dance {

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "apps/convert/convert_sink.h"
-#include "apps/convert/convert_source.h"
 #include "consumers/rate_limit.h"
 #include "core/program/part_file.h"
+#include "formats/recorded/recorded_file.h"
 
 namespace dance {
 namespace {
@@ -60,7 +60,8 @@ class Chosen : public RecordingSink {
 
 Result<Conversion> convert_recording(const ConversionOptions& options) {
   DANCE_TRY(const FileKind kind, output_kind(options.to));
-  DANCE_TRY(const auto source, open_source(options.from, options.guest, options.where));
+  DANCE_TRY(const auto source,
+            RecordedFile::open(options.from, {options.guest, options.where, options.retarget}));
   DANCE_TRY(const auto part, PartFile::create(options.to));
   DANCE_TRY(const auto sink,
             make_sink(kind, {part->path(), options.to, options.hz, source->where()}));

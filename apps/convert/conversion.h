@@ -15,6 +15,7 @@
 #include "core/base/guest_id.h"
 #include "core/base/result.h"
 #include "core/bus/channel.h"
+#include "formats/bvh/retarget.h"
 
 namespace dance {
 
@@ -23,6 +24,7 @@ struct ConversionOptions {
   GuestId guest;  // not set: all
   double hz = 0.0;
   std::optional<Where> where;
+  RetargetOptions retarget;  // unit and axis of a BVH or glTF
 };
 
 struct Conversion {

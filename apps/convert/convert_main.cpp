@@ -1,7 +1,6 @@
 // dance convert: a recorded night from one kind of file to another.
 #include <fmt/format.h>
 
-#include <csignal>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -20,6 +19,7 @@ constexpr const char* kExamples = R"(Examples:
   dance convert logs/couple-packed.lcm couple.csv --hz 10      for a spreadsheet
   dance convert dance.bvh.xz dance.lcm --guest carla           for dance replay, as carla
   dance convert night.mcap night.lcm                           and back
+  dance convert huge.glb right.glb --unit cm                   where a file is not in metres
 It reads .lcm (packed or plain) .bvh .bvh.xz .glb .vrma .vrm .gltf .mcap .csv and
 writes .lcm .bvh .glb .mcap .csv.
 )";
@@ -58,12 +58,10 @@ Result<void> convert(Options& options) {
 }  // namespace dance
 
 int main(int argc, char** argv) {
-  // A limit on file sizes shall be an error of write(), not the end of the process.
-  std::signal(SIGXFSZ, SIG_IGN);
   dance::Options options;
   dance::CommandLine line("Converts a recorded dance from one kind of file to another.",
                           "dance convert");
-  line.add("IN", options.conversion.from, "file to read, by the end of its name").required();
+  line.add("IN", options.conversion.from, "file to read, by its content").required();
   line.add("OUT", options.conversion.to,
            "file to write, by the end of its name; it must not be there yet")
       .required();
@@ -76,6 +74,13 @@ int main(int argc, char** argv) {
   line.add("--where", options.where,
            "which poses of an LCM log; without it those of the stage, where it has some")
       .one_of({"stage", "capture", "guest"});
+  line.add_choice<double>(
+      "--unit", options.conversion.retarget.metres_per_unit,
+      {{"m", 1.0}, {"dm", 0.1}, {"cm", 0.01}, {"mm", 0.001}, {"ft", 0.3048}, {"in", 0.0254}},
+      "of a BVH or glTF, where its figure is not the size it should be: m, dm, cm, mm, ft, in");
+  line.add_choice<dance::UpAxis>(
+      "--up", options.conversion.retarget.up, {{"y", dance::UpAxis::kY}, {"z", dance::UpAxis::kZ}},
+      "axis of a BVH or glTF that points up: y or z; else a BVH's stance tells, and a glTF has y");
   line.add_flag("--json", options.json, "report as JSON on stdout");
   line.finally([&] { return dance::check_rate(options.conversion.hz); });
   line.footer(dance::kExamples);

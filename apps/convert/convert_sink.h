@@ -11,7 +11,7 @@
 #include <string>
 
 #include "core/bus/channel.h"
-#include "formats/clip/file_kind.h"
+#include "formats/kind/file_kind.h"
 #include "formats/recording/recording_sink.h"
 
 namespace dance {

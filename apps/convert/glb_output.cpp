@@ -1,9 +1,9 @@
 #include <vector>
 
 #include "apps/convert/clip_output.h"
-#include "apps/convert/counted.h"
 #include "consumers/output_file.h"
 #include "formats/gltf/glb.h"
+#include "formats/recorded/counted.h"
 #include "formats/recording/clips_together.h"
 
 namespace dance {

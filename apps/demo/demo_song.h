@@ -1,27 +1,21 @@
-// The music of a demo that was given none: claves, cowbell, congas and maracas of a salsa, made by
-// rule, with the list of its beats beside it.
+// The music of a demo that was given none: eight bars of the house band's salsa, on the band's own
+// percussion, with the list of their beats beside them.
 //
 // Units/frames: a beat is what dancers count, eight of them to the clave; the file begins with the
-//               first of a bar.
-// Ownership:    plain values.
-// Threads:      none inside.
+//               first of a bar. Tempi are those of the band (producers/music/band/band_song.h).
 // Failure:      write_demo_song() names the file and the reason.
 #pragma once
 
-#include <cstdint>
 #include <string>
-#include <vector>
 
 #include "core/base/result.h"
 
 namespace dance {
 
-constexpr int kDemoSong_hz = 22050;
+constexpr int kDemoSong_hz = 48000;
 constexpr int kDemoSong_beats = 32;  // then it begins anew
 
-// Samples of one round, 16 bit, one channel.
-std::vector<std::int16_t> demo_song(double tempo_bpm);
-// song.wav, and song.beats beside it.
+// song.wav, one channel of 16 bit, and song.beats beside it.
 Result<void> write_demo_song(const std::string& wav, double tempo_bpm);
 
 }  // namespace dance

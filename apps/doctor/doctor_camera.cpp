@@ -24,7 +24,7 @@ Finding check_camera() {
 Finding check_pose_network() {
   const std::string folder = pose_models_folder("");
   const auto detector = read_detector(folder);
-  const auto body = read_landmark_model(folder, PoseModel::kFull);
+  const auto body = read_landmark_model(folder, PoseNetworkModel::kFull);
   if (detector && body)
     return {"pose network", Finding::Grade::kOk,
             folder + ", on " + std::string(name_of(chosen_engine(EngineKind::kFastest))), ""};

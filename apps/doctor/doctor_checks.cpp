@@ -1,6 +1,5 @@
 #include "apps/doctor/doctor_checks.h"
 
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -11,15 +10,17 @@
 #include "apps/doctor/doctor_camera.h"
 #include "apps/doctor/doctor_drawing.h"
 #include "apps/doctor/doctor_headset.h"
+#include "apps/doctor/doctor_limits.h"
+#include "apps/doctor/doctor_network.h"
 #include "apps/doctor/doctor_sound.h"
 #include "core/base/histogram.h"
 #include "core/bus/bus.h"
-#include "core/bus/multicast_route.h"
+#include "core/bus/route/multicast_route.h"
 #include "core/net/mono_clock.h"
 #include "core/net/poller.h"
+#include "core/program/confinement.h"
 #include "core/program/program.h"
 #include "formats/media/media_module.h"
-#include "testing/private_network.h"
 
 namespace dance {
 
@@ -27,24 +28,19 @@ using Grade = Finding::Grade;
 
 namespace {
 
-// In a child, as the network of this process must stay what it is.
-bool can_make_private_network() {
-  const pid_t child = fork();
-  if (child == 0) _exit(enter_private_network() ? 0 : 1);
-  int status = 1;
-  return child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status) &&
-         WEXITSTATUS(status) == 0;
+// Whether readers of avatars, songs and videos can be confined here.
+Finding check_confinement() {
+  bool is_on = false;
+  std::thread([&] { is_on = confine_thread(); }).join();
+  if (is_on) return {"strangers' files", Finding::Grade::kOk, "read on confined threads", ""};
+  return {"strangers' files", Finding::Grade::kNote,
+          "avatars, songs and videos are read unconfined, as this build or kernel has no seccomp",
+          ""};
 }
 
-// The bus itself, and who is on it: a second of listening, and a word of our own that must come
-// back.
-std::vector<Finding> check_bus(const std::string& url, bool has_route) {
+// Listens on the bus for a second, for programs, dancers and a message of its own that must return.
+std::vector<Finding> check_bus(const std::string& url) {
   Finding finding{"bus", Grade::kOk, "", ""};
-  if (!has_route) {
-    finding.grade = Grade::kNote;
-    finding.what = "not tried: without a route for multicast there is none";
-    return {finding};
-  }
   auto poller = Poller::create();
   auto bus = Bus::open(url);
   if (!bus || !poller) {
@@ -73,7 +69,7 @@ std::vector<Finding> check_bus(const std::string& url, bool has_route) {
   finding.what = is_heard ? url + " hears itself" : url + " does not hear what is sent on it";
   if (!is_heard) {
     finding.grade = Grade::kProblem;
-    finding.cure = kMulticastCure;
+    finding.cure = "nft list ruleset   (and allow multicast on lo)";
     return {finding};
   }
   const auto listed = [](const std::set<std::string>& names) {
@@ -125,22 +121,33 @@ Finding check_media() {
 
 }  // namespace
 
-Finding check_multicast_device(const std::string& device, bool private_network_possible) {
-  Finding finding{"multicast", Grade::kOk, "over lo: stays on this machine", ""};
+Finding check_multicast_device(const std::string& device) {
+  Finding finding{"LCM's programs", Grade::kOk, "multicast over lo: they meet the house there", ""};
   if (device == "lo") return finding;
-  finding.cure = kMulticastCure;
   finding.grade = Grade::kNote;
-  if (!device.empty()) {
-    finding.what =
-        "over " + device + ": local programs stop hearing each other when that link goes down";
-  } else if (private_network_possible) {
-    finding.what =
-        "no route: `dance demo` makes a network of its own; other programs need the route";
-  } else {
-    finding.grade = Grade::kProblem;
-    finding.what = "no route, and no network of our own can be made: LCM cannot be opened";
-  }
+  finding.cure = kMulticastCure;
+  finding.what =
+      device.empty()
+          ? "no multicast route: lcm-spy and lcm-logger cannot open a bus (dance needs no route)"
+          : "multicast over " + device +
+                ": lcm-spy receives nothing of the house there, and what lcm-logplayer sends may "
+                "leave through a VPN (dance stays on lo)";
   return finding;
+}
+
+Finding check_bus_exposure(const BusAddress& address) {
+  if (address.ttl > 0)
+    return {"bus and network", Grade::kNote,
+            "ttl=" + std::to_string(address.ttl) +
+                ": any host of the network can see the bus and dance as this house's guests",
+            "--bus 'udpm://" + address.group + ":" + std::to_string(address.port) + "?ttl=0'"};
+  // The rule matches the source address, as the kernel loops our own datagrams back from a card.
+  return {"bus and network", Grade::kNote,
+          "dance ignores other hosts; lcm-spy and lcm-logger do not, and a datagram from there can "
+          "crash them. As root, this closes the port to other hosts:",
+          "nft 'add table inet dance_bus; add chain inet dance_bus input { type filter hook input "
+          "priority 0; }; add rule inet dance_bus input udp dport " +
+              std::to_string(address.port) + " fib saddr type != local drop'"};
 }
 
 Finding check_receive_buffer(long long rmem_max_bytes) {
@@ -166,13 +173,15 @@ std::vector<Finding> examine_machine(const std::string& bus_url) {
   std::vector<Finding> findings;
   const auto address = parse_udpm_url(bus_url);
   if (!address) return {{"bus", Grade::kProblem, address.error().what, ""}};
-  const std::string device = multicast_device(address->group);
-  findings.push_back(check_multicast_device(device, can_make_private_network()));
-  for (Finding& finding : check_bus(bus_url, !device.empty()))
-    findings.push_back(std::move(finding));
+  for (Finding& finding : examine_network()) findings.push_back(std::move(finding));
+  for (Finding& finding : check_bus(bus_url)) findings.push_back(std::move(finding));
+  findings.push_back(check_bus_exposure(*address));
+  findings.push_back(check_multicast_device(multicast_device(address->group)));
   long long rmem_max_bytes = 0;
   std::ifstream("/proc/sys/net/core/rmem_max") >> rmem_max_bytes;
   findings.push_back(check_receive_buffer(rmem_max_bytes));
+  for (Finding& finding : examine_limits()) findings.push_back(std::move(finding));
+  findings.push_back(check_confinement());
   findings.push_back(measure_wake_ups());
   findings.push_back(check_display());
   findings.push_back(check_drawing());

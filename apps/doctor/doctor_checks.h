@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/time.h"
+#include "core/bus/bus_url.h"
 
 namespace dance {
 
@@ -20,9 +21,11 @@ struct Finding {
   std::string cure;  // a command; "" where none is needed
 };
 
-// Pure, so that they can be tested: from the device that carries the group, and from the kernel's
-// limit in bytes.
-Finding check_multicast_device(const std::string& device, bool private_network_possible);
+// Judges the device of the multicast route; "" means no route.
+Finding check_multicast_device(const std::string& device);
+// Reports which hosts of the network can reach the bus.
+Finding check_bus_exposure(const BusAddress& address);
+// Judges the kernel's limit of receive buffers.
 Finding check_receive_buffer(long long rmem_max_bytes);
 // From how much later than asked a sleeping process was woken, at the 99th percentile.
 Finding check_wake_ups(Duration lateness_p99);

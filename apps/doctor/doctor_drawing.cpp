@@ -1,13 +1,13 @@
 #include "apps/doctor/doctor_drawing.h"
 
 #include <fcntl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cstring>
 
 #if DANCE_HAVE_VIEWER
+#include "core/program/child_process.h"
 #include "viewer/gl/offscreen.h"
 #endif
 
@@ -19,14 +19,14 @@ using Grade = Finding::Grade;
 namespace {
 
 // In the child: 0 and the renderer's name, or 1 and what is missing.
-[[noreturn]] void try_context(int out) {
+int try_context(int out) {
   // Drivers' messages on stderr are dropped.
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   dup2(nowhere, STDERR_FILENO);
   const auto context = OffscreenContext::create();
   const std::string text = context ? renderer_name() : context.error().what;
   [[maybe_unused]] const auto written = write(out, text.data(), text.size());
-  _exit(context ? 0 : 1);
+  return context ? 0 : 1;
 }
 
 }  // namespace
@@ -34,20 +34,17 @@ namespace {
 Finding check_drawing() {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) return {"drawing", Grade::kNote, "cannot be tried", ""};
-  const pid_t child = fork();
-  if (child == 0) try_context(ends[1]);
+  auto child = ChildProcess::start_copy([&] { return try_context(ends[1]); });
   close(ends[1]);
   std::string text;
   std::array<char, 512> chunk;
   for (ssize_t n; (n = read(ends[0], chunk.data(), chunk.size())) > 0 && text.size() < 4096;)
     text.append(chunk.data(), static_cast<std::size_t>(n));
   close(ends[0]);
-  int status = 1;
-  const bool has_ended = child > 0 && waitpid(child, &status, 0) == child;
-  if (has_ended && WIFEXITED(status) && WEXITSTATUS(status) == 0)
-    return {"drawing", Grade::kOk, "OpenGL 3.3 by " + text, ""};
-  if (has_ended && WIFSIGNALED(status))
-    text = std::string("the OpenGL driver ended by ") + strsignal(WTERMSIG(status));
+  const bool has_ended = child && child->wait(Duration::s(20));
+  if (has_ended && child->ended_well()) return {"drawing", Grade::kOk, "OpenGL 3.3 by " + text, ""};
+  if (has_ended && child->end_signal() != 0)
+    text = std::string("the OpenGL driver ended by ") + strsignal(child->end_signal());
   return {"drawing", Grade::kProblem, text, "apt-get install libegl1 libgl1-mesa-dri libegl-mesa0"};
 }
 #else

@@ -5,6 +5,7 @@
 
 #include "apps/doctor/doctor_checks.h"
 #include "apps/doctor/doctor_cluster.h"
+#include "core/base/text/plain_text.h"
 #include "core/bus/bus.h"
 #include "core/program/program.h"
 #include "tunnel/server/program/cluster/cluster_options.h"
@@ -48,8 +49,9 @@ Result<void> run_doctor(const DoctorOptions& options) {
                     {"cure", finding.cure}});
     if (json) continue;
     std::printf("%-8s %-15s %s\n", word_of(finding.grade), finding.name.c_str(),
-                finding.what.c_str());
-    if (!finding.cure.empty()) std::printf("%-8s %-15s   %s\n", "", "", finding.cure.c_str());
+                plain_text(finding.what).c_str());
+    if (!finding.cure.empty())
+      std::printf("%-8s %-15s   %s\n", "", "", plain_text(finding.cure).c_str());
   }
   if (json) std::printf("%s\n", nlohmann::ordered_json{{"findings", list}}.dump(2).c_str());
   if (problems > 0)

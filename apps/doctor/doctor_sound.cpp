@@ -51,6 +51,13 @@ Finding finding_of(const SoundFailure& failure) {
       finding.cure =
           "export PULSE_COOKIE=FILE   (that of the server's user: ~/.config/pulse/cookie)";
       break;
+    case SoundTrouble::kHangs:
+      finding.what =
+          "the sound server at " + failure.socket + " hangs: it accepts us and does not answer";
+      finding.cure = failure.installed_server == "pipewire-pulse"
+                         ? "systemctl --user restart pipewire pipewire-pulse"
+                         : "pulseaudio --kill; pulseaudio --start";
+      break;
     case SoundTrouble::kNoLoudspeaker:
       finding.what = "the sound server has no loudspeaker";
       finding.cure =
@@ -86,7 +93,8 @@ SoundFailure why_not(std::string reason) {
   failure.socket = sound_server_place();
   failure.is_named = !variable("PULSE_SERVER").empty();
   failure.installed_server = installed_server();
-  if (PulseServer::connect("doctor")) {
+  const auto server = PulseServer::connect("doctor");
+  if (server) {
     failure.trouble = SoundTrouble::kNoLoudspeaker;
     failure.reason = std::move(reason);
     return failure;
@@ -95,7 +103,8 @@ SoundFailure why_not(std::string reason) {
     failure.trouble = SoundTrouble::kFarServer;
     return failure;
   }
-  failure.trouble = SoundTrouble::kRefused;
+  failure.trouble = server.error().is_silent ? SoundTrouble::kHangs : SoundTrouble::kRefused;
+  if (server.error().is_silent) return failure;
   const auto answer = read_local_text(failure.socket, kKnock);
   if (answer || answer.error().trouble == LocalTrouble::kSilent) return failure;
   if (answer.error().trouble == LocalTrouble::kNobody) failure.trouble = SoundTrouble::kNoServer;

@@ -22,6 +22,7 @@ enum class SoundTrouble : std::uint8_t {
   kNoServer,       // no server listens at the socket
   kNotYours,       // the socket is another user's
   kRefused,        // a server is there and refuses the connection
+  kHangs,          // a server accepts the connection and does not answer
   kNoLoudspeaker,  // connected, but the server has no output device
   kFarServer,      // on another machine, by PULSE_SERVER: cannot be checked from here
 };

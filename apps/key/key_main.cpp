@@ -1,4 +1,4 @@
-// dance key: keeps the keys that servers have given to this house.
+// dance key: the identity of this house, and the servers that let it in.
 
 #include <unistd.h>
 
@@ -10,7 +10,7 @@
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "tunnel/invitation/open_invitation.h"
-#include "tunnel/seal/key_files.h"
+#include "tunnel/seal/keys/key_files.h"
 
 namespace dance {
 namespace {
@@ -20,6 +20,9 @@ constexpr const char* kExamples = R"(Examples:
                                        a key, or an invitation, which it opens
   dance key < line.txt                 takes it from a file
   dance key --list                     which servers let you in, and as whom
+  dance key --public                   prints this house's public key, for a server's keeper
+  dance key --trust dance.example.org=A7…
+                                       trusts a new key of a server, which its keeper confirmed
   dance key --remove alice@dance.example.org:7400
 )";
 
@@ -27,7 +30,9 @@ struct KeyOptions {
   std::string file;
   std::string server;
   std::string remove;
+  std::string trust;  // SERVER=KEY
   bool list = false;
+  bool shows_public = false;
 };
 
 Result<std::string> asked_line() {
@@ -53,12 +58,42 @@ Result<void> open_pasted(const std::string& line) {
   return {};
 }
 
+Result<void> trust_server(const std::string& given, const std::string& path) {
+  const auto mark = given.find('=');
+  const auto key =
+      mark == std::string::npos ? std::nullopt : PublicKey::parse(given.substr(mark + 1));
+  if (!key || !key->is_on_curve())
+    return fail(
+        "--trust takes SERVER=KEY, with the 44 characters that the server's keeper reads in "
+        "dance server --list-keys");
+  const std::string server = given.substr(0, mark);
+  DANCE_TRY(const FileLock lock, FileLock::of_folder(path));
+  DANCE_TRY(const auto text, read_secret(path));
+  HouseKeys keys;
+  if (text) {
+    DANCE_TRY(keys, HouseKeys::parse(*text, path));
+  }
+  const auto changed = keys.trust(server, *key);
+  if (changed.empty())
+    return fail("no key in " + path + " for the server '" + server +
+                "' has another server key; --list prints the servers that there are");
+  if (auto written = write_secret(path, keys.text()); !written) return written;
+  for (const std::string& title : changed) talk::info("{} trusts the new key of its server", title);
+  return {};
+}
+
 Result<void> run_key(const KeyOptions& options) {
+  if (options.shows_public) {
+    DANCE_TRY(const PrivateKey house, house_identity());
+    std::printf("%s\n", house.public_key().text().c_str());
+    return {};
+  }
   std::string path = options.file;
   if (path.empty()) {
     DANCE_TRY(const std::string folder, key_folder());
     path = folder + "/keys";
   }
+  if (!options.trust.empty()) return trust_server(options.trust, path);
   DANCE_TRY(const auto text, read_secret(path));
   HouseKeys keys;
   if (text) {
@@ -95,6 +130,11 @@ Result<void> run_key(const KeyOptions& options) {
   if (text_now) {
     DANCE_TRY(keys, HouseKeys::parse(*text_now, path));
   }
+  if (const HouseKey* known = keys.find_other(key.server, key.server_key))
+    return fail("the line names another key of " + key.server +
+                " than the one that this house knows (" + known->server_key.text() +
+                "). If its keeper confirms the new one, run: dance key " + "--trust " + key.server +
+                "=" + key.server_key.text() + ", and paste the line again");
   keys.put(key);
   if (auto written = write_secret(path, keys.text()); !written) return written;
   const std::string room = key.room.is_set() ? " --room " + std::string(key.room.view()) : "";
@@ -114,6 +154,10 @@ int main(int argc, char** argv) {
   line.add("--server", options.server, "HOST[:PORT] of the server, where the line does not say it");
   line.add_flag("--list", options.list, "whose keys there are, without the keys");
   line.add("--remove", options.remove, "takes one away, named as --list does");
+  line.add("--trust", options.trust,
+           "SERVER=KEY: trusts another key of a server, after its keeper confirmed it");
+  line.add_flag("--public", options.shows_public,
+                "prints this house's public key, which is no secret");
   line.add("--file", options.file,
            "where keys are kept (else in the folder of the user's settings)");
   line.footer(dance::kExamples);

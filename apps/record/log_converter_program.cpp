@@ -1,6 +1,5 @@
 #include "apps/record/log_converter_program.h"
 
-#include <csignal>
 #include <cstdio>
 
 #include "core/program/program.h"
@@ -20,8 +19,6 @@ Result<void> convert(const std::string& from, const std::string& to, LogForm for
 }  // namespace
 
 int run_log_converter(LogForm form, const LogConverterWords& words, int argc, char** argv) {
-  // A limit on file sizes shall be an error of write(), not the end of the process.
-  std::signal(SIGXFSZ, SIG_IGN);
   std::string from, to;
   CommandLine line(words.purpose, words.name);
   line.add("FILE", from, words.file).required();

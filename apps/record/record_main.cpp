@@ -1,11 +1,13 @@
 // dance-record: records a bus to an LCM log that `dance replay`, lcm-logplayer and every LCM tool
 // can read.
 
-#include <csignal>
 #include <cstdio>
+#include <set>
 
 #include "apps/bus_program.h"
 #include "apps/record/recorder.h"
+#include "core/base/printable.h"
+#include "core/net/clock/recording_clock.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
 
@@ -18,7 +20,8 @@ constexpr const char* kExamples =
     "  dance record -o logs/tango.lcm --seconds 60   a minute, into a file of that name\n"
     "  dance record --channels 'POSE/capture/.*' 'SKELETON/capture/.*'\n"
     "  dance record -o logs/ball.lcm --packed        in about a third of the bytes, to the bit\n"
-    "  dance replay logs/tango.lcm                   plays it as if the dancers were here\n";
+    "  dance replay logs/tango.lcm                   plays it as if the dancers were here\n"
+    "Messages longer than a datagram (65 kB) are refused, and their channels named at the end.\n";
 
 struct Options {
   std::string path;
@@ -29,14 +32,37 @@ struct Options {
   bool packed = false;
 };
 
-std::int64_t wall_clock_us() {
-  return std::chrono::duration_cast<std::chrono::microseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
+// Channels whose messages were refused, for the line at the end. Anybody may make up names.
+class RefusedChannels {
+ public:
+  static constexpr std::size_t kMostNames = 16;
+
+  void add(std::string_view name) {
+    if (names_.size() < kMostNames) names_.insert(printable(name));
+  }
+  // "CLOUD/points, MAP/tiles".
+  std::string text() const {
+    std::string all;
+    for (const std::string& name : names_) all += (all.empty() ? "" : ", ") + name;
+    return all;
+  }
+
+ private:
+  std::set<std::string> names_;
+};
+
+void report_refused(const Bus::Counters& counters, const RefusedChannels& channels) {
+  if (counters.fragments > 0)
+    talk::warn(
+        "refused {} fragments of messages longer than a datagram (65 kB){}; lcm-logger records "
+        "them",
+        counters.fragments, channels.text().empty() ? "" : ", on " + channels.text());
+  if (counters.malformed > 0)
+    talk::warn("refused {} datagrams that are not messages of LCM", counters.malformed);
 }
 
 Result<void> record(Options options) {
-  DANCE_TRY(ChannelFilter filter, ChannelFilter::make(options.channels));
+  DANCE_TRY(RecordFilter filter, RecordFilter::make(options.channels));
   DANCE_TRY(BusProgram program, BusProgram::open(options.bus_url));
   if (options.path.empty()) options.path = default_log_path(std::chrono::system_clock::now());
   DANCE_TRY(Recorder recorder,
@@ -45,17 +71,14 @@ Result<void> record(Options options) {
                            options.packed ? Recorder::Poses::kPacked : Recorder::Poses::kPlain));
 
   Poller& poller = program.poller();
-  MonoTime turn;
-  std::int64_t turn_us = 0;
+  const RecordingClock clock;
   program.bus().on_anything(
       [&](std::string_view channel, const void* data, std::size_t size, MonoTime now) {
-        if (now != turn) {
-          turn = now;
-          turn_us = wall_clock_us();
-        }
-        recorder.take(turn_us, channel, {static_cast<const std::uint8_t*>(data), size});
+        recorder.take(clock.wall_us(now), channel, {static_cast<const std::uint8_t*>(data), size});
         if (recorder.failure()) poller.stop();
       });
+  RefusedChannels refused;
+  program.bus().on_refused([&](std::string_view channel) { refused.add(channel); });
   program.every(Duration::s(1), [&](MonoTime) {
     recorder.flush();
     if (recorder.failure()) poller.stop();
@@ -72,6 +95,7 @@ Result<void> record(Options options) {
                 static_cast<unsigned long long>(packing->packed),
                 static_cast<unsigned long long>(packing->kept),
                 static_cast<unsigned long long>(packing->plain_bytes));
+  report_refused(program.bus().counters(), refused);
   if (recorder.failure()) return tl::make_unexpected(*recorder.failure());
   if (recorder.events() == 0)
     talk::warn("nothing was heard on {}{}: {} {}; dance doctor looks at the bus",
@@ -82,7 +106,7 @@ Result<void> record(Options options) {
 
 // "" where the pattern is fine, else what is wrong.
 std::string check_pattern(const std::string& pattern) {
-  const auto filter = ChannelFilter::make({pattern});
+  const auto filter = RecordFilter::make({pattern});
   return filter ? "" : filter.error().what;
 }
 
@@ -90,8 +114,6 @@ std::string check_pattern(const std::string& pattern) {
 }  // namespace dance
 
 int main(int argc, char** argv) {
-  // A limit on file sizes shall be an error of write(), not the end of the process.
-  std::signal(SIGXFSZ, SIG_IGN);
   dance::Options options;
   dance::CommandLine line("Records a bus to an LCM log.", "dance record");
   line.add("-o,--output", options.path, "file to write (logs/<date>-<time>.lcm)");

@@ -20,8 +20,8 @@ std::string default_log_path(std::chrono::system_clock::time_point now) {
   return text.data();
 }
 
-Result<ChannelFilter> ChannelFilter::make(const std::vector<std::string>& patterns) {
-  ChannelFilter filter;
+Result<RecordFilter> RecordFilter::make(const std::vector<std::string>& patterns) {
+  RecordFilter filter;
   for (const std::string& pattern : patterns) {
     try {
       filter.patterns_.emplace_back(pattern, std::regex::ECMAScript | std::regex::optimize);
@@ -33,7 +33,7 @@ Result<ChannelFilter> ChannelFilter::make(const std::vector<std::string>& patter
   return filter;
 }
 
-bool ChannelFilter::wants(std::string_view channel) {
+bool RecordFilter::wants(std::string_view channel) {
   if (patterns_.empty()) return true;
   if (const auto found = known_.find(channel); found != known_.end()) return found->second;
   bool wanted = false;
@@ -43,13 +43,13 @@ bool ChannelFilter::wants(std::string_view channel) {
   return wanted;
 }
 
-Recorder::Recorder(std::string path, LogWriter writer, ChannelFilter filter, Poses poses)
+Recorder::Recorder(std::string path, LogWriter writer, RecordFilter filter, Poses poses)
     : path_(std::move(path)),
       writer_(std::move(writer)),
       filter_(std::move(filter)),
       packer_(poses == Poses::kPacked ? std::make_unique<LogPacker>() : nullptr) {}
 
-Result<Recorder> Recorder::make(const std::string& path, ChannelFilter filter, IfThere if_there,
+Result<Recorder> Recorder::make(const std::string& path, RecordFilter filter, IfThere if_there,
                                 Poses poses) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   if (!folder.empty()) {

@@ -1,7 +1,7 @@
 // Recorder: puts what is heard on a bus into an LCM log, as lcm-logger does, or into a packed one.
 //
-// Units/frames: event times are microseconds of the wall clock, which is what lcm-logplayer
-//               expects.
+// Units/frames: event times are microseconds since 1970, which is what lcm-logplayer expects, as
+//               core/net/clock/recording_clock.h gives them.
 // Ownership:    owns the log file.
 // Threads:      none inside; one owner.
 // Failure:      make() names a file that cannot be written, or a pattern that is none; the first
@@ -29,9 +29,9 @@ namespace dance {
 std::string default_log_path(std::chrono::system_clock::time_point now);
 
 // Channel patterns as LCM reads them: regular expressions that have to match the whole name.
-class ChannelFilter {
+class RecordFilter {
  public:
-  static Result<ChannelFilter> make(const std::vector<std::string>& patterns);
+  static Result<RecordFilter> make(const std::vector<std::string>& patterns);
   // True for every channel where there are no patterns.
   bool wants(std::string_view channel);
 
@@ -47,7 +47,7 @@ class Recorder {
   enum class IfThere { kRefuse, kAppend };
   enum class Poses { kPlain, kPacked };
   // Makes the folders of `path` where they are missing.
-  static Result<Recorder> make(const std::string& path, ChannelFilter filter,
+  static Result<Recorder> make(const std::string& path, RecordFilter filter,
                                IfThere if_there = IfThere::kRefuse, Poses poses = Poses::kPlain);
 
   void take(std::int64_t time_us, std::string_view channel, std::span<const std::uint8_t> data);
@@ -62,12 +62,12 @@ class Recorder {
   std::optional<LogPacker::Counters> packing() const;
 
  private:
-  Recorder(std::string path, LogWriter writer, ChannelFilter filter, Poses poses);
+  Recorder(std::string path, LogWriter writer, RecordFilter filter, Poses poses);
   void note(Result<void> written);
 
   std::string path_;
   LogWriter writer_;
-  ChannelFilter filter_;
+  RecordFilter filter_;
   std::unique_ptr<LogPacker> packer_;
   std::optional<Error> failure_;
 };

@@ -12,7 +12,10 @@
 #include <vector>
 
 #include "core/bus/bus.h"
+#include "core/bus/bus_url.h"
+#include "core/bus/route/multicast_route.h"
 #include "core/program/program.h"
+#include "core/program/talk.h"
 
 namespace dance {
 namespace {
@@ -21,6 +24,9 @@ constexpr const char* kExamples = R"(Examples:
   dance spy                                        the house's bus; a double click opens a channel
   dance spy --bus 'udpm://239.255.76.67:7668?ttl=0'
   dance spy --print                                the command, for a script of your own
+lcm-spy needs a multicast route over lo. It also receives from the network, and datagrams from
+there can crash it. What it sends with ttl=0 may leave through a VPN. `dance doctor` prints the
+commands for the route, and for a firewall rule that closes the port of the bus.
 )";
 
 constexpr const char* kInstall =
@@ -55,8 +61,19 @@ Result<std::vector<std::string>> spy_command(const std::string& bus) {
                                   "lcm.spy.Spy", "--lcm-url=" + bus};
 }
 
+// Java receives from the device of the multicast route alone, and the house sends over lo.
+Result<void> check_route(const std::string& url) {
+  DANCE_TRY(const BusAddress address, parse_udpm_url(url));
+  if (const std::string device = multicast_device(address.group); device != "lo")
+    talk::warn("lcm-spy will not receive the house: multicast has {}; give it one with: {}",
+               device.empty() ? "no route" : "its route over " + device, kMulticastCure);
+  return {};
+}
+
 Result<void> run_spy(const std::string& bus, bool print) {
-  DANCE_TRY(auto command, spy_command(bus_url_or_default(bus)));
+  const std::string url = bus_url_or_default(bus);
+  if (auto checked = check_route(url); !checked) return checked;
+  DANCE_TRY(auto command, spy_command(url));
   if (print) {
     for (const std::string& word : command) std::printf("'%s' ", word.c_str());
     std::printf("\n");

@@ -13,6 +13,9 @@
 #include <optional>
 #include <string>
 
+#include "core/base/text/cut_text.h"
+#include "core/base/text/plain_text.h"
+
 namespace dance::status_json {
 
 using json = nlohmann::ordered_json;
@@ -36,6 +39,12 @@ inline std::string text(const json& object, const char* key) {
   for (char& c : out)
     if (c < ' ' || c > '~') c = '?';
   return out;
+}
+
+// Returns a shown name of any script; characters that control the terminal are replaced.
+inline std::string shown_text(const json& object, const char* key) {
+  const json& value = member(object, key);
+  return value.is_string() ? plain_text(cut_text(value.get<std::string>(), 48)) : "-";
 }
 
 inline std::string cell(std::optional<double> value, double scale, int digits, const char* unit) {

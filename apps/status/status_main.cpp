@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "apps/status/cluster_table.h"
+#include "apps/status/log_table.h"
 #include "apps/status/status_source.h"
 #include "apps/status/status_table.h"
 #include "core/net/mono_clock.h"
@@ -20,6 +21,7 @@ constexpr const char* kExamples =
     "  dance status                         the server on port 7400, until ctrl-C\n"
     "  dance status --once                  one table, then end\n"
     "  dance status --cluster               the other servers of its cluster too\n"
+    "  dance status --log                   who joined, who was refused, who was removed\n"
     "  dance status --port 7500 --once --json | jq '.rooms[].guests'\n";
 constexpr const char* kClearScreen = "\033[H\033[2J";
 
@@ -28,7 +30,14 @@ struct StatusOptions {
   bool is_once = false;
   bool is_json = false;
   bool with_cluster = false;
+  bool shows_log = false;
 };
+
+Result<void> show_log(const StatusOptions& options) {
+  DANCE_TRY(const std::string lines, ask_server_log(options.port));
+  std::printf("%s", options.is_json ? log_json(lines).c_str() : log_text(lines).c_str());
+  return {};
+}
 
 Result<void> show(const StatusOptions& options) {
   const bool is_screen = isatty(STDOUT_FILENO) == 1 && !options.is_once && !options.is_json;
@@ -78,7 +87,11 @@ int main(int argc, char** argv) {
   line.add_flag("--once", options.is_once, "once, then end");
   line.add_flag("--cluster", options.with_cluster,
                 "the cluster too: NATS, its servers, and what passes between them");
+  line.add_flag("--log", options.shows_log,
+                "the audit log: joins, refusals and removals, also of earlier runs; then end");
   line.add_flag("--json", options.is_json, "as JSON, one object a line");
   line.footer(dance::kExamples);
-  return dance::run_program(line, argc, argv, [&] { return dance::show(options); });
+  return dance::run_program(line, argc, argv, [&] {
+    return options.shows_log ? dance::show_log(options) : dance::show(options);
+  });
 }

@@ -10,6 +10,7 @@
 
 #include "core/base/take_line.h"
 #include "core/net/local_socket.h"
+#include "tunnel/server/program/audit_keeper.h"
 #include "tunnel/server/program/server_watch.h"
 
 namespace dance {
@@ -66,19 +67,21 @@ std::optional<uid_t> owner_of_udp_port(std::string_view table, std::uint16_t por
   return std::nullopt;
 }
 
-Result<nlohmann::ordered_json> ask_server(std::uint16_t port) {
+namespace {
+
+struct SocketText {
+  std::string text;
+  std::string path;
+};
+
+// Asks the server on this port through its socket of this name.
+Result<SocketText> read_server_socket(std::uint16_t port, const std::string& socket_name) {
   const std::optional<uid_t> owner = owner_now(port);
   bool is_others = owner && *owner != ::geteuid();
   for (const std::string& folder : folders_to_ask(owner)) {
-    const std::string path = folder + "/" + status_socket_name(port);
-    const auto text = read_local_text(path, kAnswerTimeout);
-    if (text) {
-      auto status = nlohmann::ordered_json::parse(*text, nullptr, false);
-      if (status.is_object()) return status;
-      return fail(path +
-                  " tells something else than a server's status: is the server of another "
-                  "version? use the `dance` that started it");
-    }
+    const std::string path = folder + "/" + socket_name;
+    auto text = read_local_text(path, kAnswerTimeout);
+    if (text) return SocketText{std::move(*text), path};
     switch (text.error().trouble) {
       case LocalTrouble::kNobody:
         continue;
@@ -113,6 +116,22 @@ Result<nlohmann::ordered_json> ask_server(std::uint16_t port) {
       fmt::format("no server on port {} of this machine: start one with `dance server "
                   "--port {}`, or name another --port",
                   port, port));
+}
+
+}  // namespace
+
+Result<nlohmann::ordered_json> ask_server(std::uint16_t port) {
+  DANCE_TRY(const SocketText answer, read_server_socket(port, status_socket_name(port)));
+  auto status = nlohmann::ordered_json::parse(answer.text, nullptr, false);
+  if (status.is_object()) return status;
+  return fail(answer.path +
+              " does not answer with a server's status: is the server of another version? use the "
+              "`dance` that started it");
+}
+
+Result<std::string> ask_server_log(std::uint16_t port) {
+  DANCE_TRY(SocketText answer, read_server_socket(port, audit_socket_name(port)));
+  return std::move(answer.text);
 }
 
 }  // namespace dance

@@ -2,6 +2,7 @@
 #include <string_view>
 
 #include "apps/bus_program.h"
+#include "core/control/house_publisher.h"
 #include "core/net/mono_clock.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
@@ -37,9 +38,10 @@ Result<void> say(const Options& options) {
   const auto guest = GuestId::parse(options.guest);
   DANCE_TRY(BusProgram program, BusProgram::open(options.bus_url));
   const Channel channel = Channel::of(Signal::kStyle, Where::kCapture, *guest);
+  HousePublisher port(program.bus(), program.bus().url(), program.poller());
   const auto publish = [&] {
     style.time = mono_now();
-    program.bus().publish(channel, style);
+    port.publish(channel, style);
   };
   publish();
   if (options.is_once) return {};
@@ -69,7 +71,7 @@ int main(int argc, char** argv) {
   dance::CommandLine line("Says how large a guest's dance is to be shown, zone by zone.",
                           "dance style");
   line.add("GUEST", options.guest, "whose dance").required().guest_name();
-  line.add("ZONE=GAIN", options.words, "hips=1.5 preset=cuban mix=0.5 ...").required();
+  line.add("SETTINGS", options.words, "hips=1.5 preset=cuban mix=0.5 ...").required();
   line.add("--bus", options.bus_url, "LCM URL of the bus");
   line.add("--seconds", options.seconds, "stop after so long (0: ctrl-C)").range(0.0, 1e7);
   line.add_flag("--once", options.is_once, "say it once and end");

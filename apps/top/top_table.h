@@ -14,9 +14,11 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/steps.h"
 #include "core/base/time.h"
 #include "core/bus/messages.h"
 #include "core/signal/flow_setting.h"
+#include "core/signal/playout.h"
 #include "core/signal/style.h"
 
 namespace dance {

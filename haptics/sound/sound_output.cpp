@@ -100,9 +100,11 @@ Result<void> SoundOutput::Impl::connect() {
   if (pa_stream_connect_playback(stream, sink.empty() ? nullptr : sink.c_str(), &buffer, flags,
                                  nullptr, nullptr) < 0)
     return fail("the sound server refuses to play: " + server->error_text());
-  if (!server->becomes_ready(stream))
-    return fail("the sound server has no sink '" + (sink.empty() ? "default" : sink) +
-                "'; pactl list short sinks shows those there are");
+  if (auto ready = server->await_ready(stream, "the sound server has no sink '" +
+                                                   (sink.empty() ? "default" : sink) +
+                                                   "' (`pactl list short sinks` names them)");
+      !ready)
+    return ready;
   // What waited meanwhile is of the past.
   while (orders.pop()) {
   }

@@ -44,7 +44,8 @@ HeadsetCapture::HeadsetCapture(const XrDancerSession& session, XrInput& input,
 Result<void> HeadsetCapture::open() {
   DANCE_TRY(poller_, Poller::create());
   DANCE_TRY(bus_, Bus::open(options_.bus_url));
-  sink_ = std::make_unique<PortCaptureSink>(*bus_);
+  port_ = std::make_unique<HousePublisher>(*bus_, bus_->url(), *poller_);
+  sink_ = std::make_unique<PortCaptureSink>(*port_);
   received_ = std::make_unique<ReceivedDancer>(options_.guest, *sink_);
   bus_->subscribe<Pose>(Where::kStage,
                         [this](const Channel& channel, const Pose& pose, MonoTime now) {

@@ -18,6 +18,7 @@
 #include "core/base/histogram.h"
 #include "core/base/latest.h"
 #include "core/bus/bus.h"
+#include "core/control/house_publisher.h"
 #include "core/net/poller.h"
 #include "haptics/haptic_feed.h"
 #include "headset/capture/free_spot.h"
@@ -98,6 +99,7 @@ class HeadsetCapture {
   HeadsetCaptureOptions options_;
   std::unique_ptr<Poller> poller_;
   std::unique_ptr<Bus> bus_;
+  std::unique_ptr<HousePublisher> port_;
   std::unique_ptr<PortCaptureSink> sink_;
   std::unique_ptr<ReceivedDancer> received_;
   std::unique_ptr<HapticFeed> felt_;

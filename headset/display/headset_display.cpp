@@ -95,6 +95,7 @@ Result<void> HeadsetDisplay::draw(const XrFrames::Turn& turn, bool& is_drawn) {
   const bool is_elsewhere = session_.recentres() != told_.recentres;
   wishes.darkness = is_elsewhere ? 1.0f : fade_.darkness(taken);
   wishes.tags = options_.tags;
+  wishes.place = options_.place;
   const std::array<StageEye, 2> eyes{stage_eye(eyes_[0]), stage_eye(eyes_[1])};
   if (auto prepared = painter_.prepare(scene, eyes, frames_->width_px(), frames_->height_px(),
                                        panel_, words_of(scene), wishes);

@@ -25,6 +25,7 @@ struct HeadsetDisplayOptions {
   ComfortSettings comfort;
   float scale = 1.0f;
   bool tags = true;
+  Venue place = Venue::kPlain;
 };
 
 class HeadsetDisplay {

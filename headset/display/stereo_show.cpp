@@ -37,6 +37,7 @@ class StereoShow final : public HeadsetShow {
     display.comfort = {options_.personal_space_m, options_.floor_m};
     display.scale = options_.scale;
     display.tags = options_.tags;
+    display.place = parse_place(options_.place).value_or(Venue::kPlain);
     DANCE_TRY(display_,
               HeadsetDisplay::create(session, input, capture, *scene_, *window_, *painter_, display,
                                      [this](bool mutes) { tell(mutes); }));

@@ -30,6 +30,7 @@ constexpr ImU32 kBack = IM_COL32(16, 18, 26, 250), kInk = IM_COL32(240, 240, 245
 constexpr ImU32 kSoft = IM_COL32(170, 175, 190, 255), kWarm = IM_COL32(255, 196, 120, 255);
 constexpr ImU32 kButton = IM_COL32(48, 54, 74, 255), kHover = IM_COL32(84, 98, 140, 255);
 constexpr ImU32 kOn = IM_COL32(150, 60, 60, 255), kDot = IM_COL32(255, 255, 255, 255);
+constexpr ImU32 kRecords = IM_COL32(242, 61, 54, 255);
 
 ImVec2 tag_at(std::size_t place) {
   const auto column = static_cast<float>(place % kTagsInRow);
@@ -75,6 +76,9 @@ std::string BoardSheet::content_of(const WristPanel& panel, const PanelWords& wo
   std::string content;
   for (const SceneGuest& guest : guests) {
     content += guest.id.view();
+    content += ' ';
+    content += shown_name(names_, guest.id, texts_);
+    content += guest.is_recording ? 'r' : '-';
     content += static_cast<char>('0' + static_cast<int>(guest.voice_mark));
     content += guest.voice > 0.05f ? '+' : '-';
     content += guest.hides_head ? 'h' : '-';
@@ -95,7 +99,8 @@ std::string BoardSheet::content_of(const WristPanel& panel, const PanelWords& wo
 }
 
 void BoardSheet::draw(const WristPanel& panel, const PanelWords& words,
-                      std::span<const SceneGuest> guests) {
+                      std::span<const SceneGuest> guests, const ShownNames& names) {
+  names_ = names;
   const std::string content = content_of(panel, words, guests);
   tag_widths_px_.resize(guests.size(), 0.0f);
   if (content == drawn_) return;
@@ -165,13 +170,14 @@ void BoardSheet::draw_panel(const WristPanel& panel, const PanelWords& words) {
 void BoardSheet::draw_tag(std::size_t place, const SceneGuest& guest) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const ImVec2 at = tag_at(place);
-  const char* name = guest.id.c_str();
+  const char* name = shown_name(names_, guest.id, texts_).data();  // ends with a zero
   constexpr float kPad = 20.0f, kDotRadius = 9.0f;
   const bool has_mark = guest.voice_mark != VoiceMark::kNone;
   const float before = kPad + 3.0f * kDotRadius + (has_mark ? 48.0f : 0.0f);
-  const float size = size_that_fits(*large_, name, kTagWidth_px - before - kPad, 44.0f);
+  const float after = guest.is_recording ? kPad + 48.0f : kPad;
+  const float size = size_that_fits(*large_, name, kTagWidth_px - before - after, 44.0f);
   const ImVec2 text = large_->CalcTextSizeA(size, 1e5f, 0.0f, name);
-  const float width = std::min(kTagWidth_px, before + text.x + kPad);
+  const float width = std::min(kTagWidth_px, before + text.x + after);
   tag_widths_px_[place] = width;
   const float middle = at.y + 0.5f * kTagHeight_px;
   list.AddRectFilled({at.x, at.y + 2.0f}, {at.x + width, at.y + kTagHeight_px - 2.0f}, kBack,
@@ -185,6 +191,8 @@ void BoardSheet::draw_tag(std::size_t place, const SceneGuest& guest) {
   if (has_mark)
     draw_voice_mark(list, guest.voice_mark, {at.x + before - 24.0f, middle}, 36.0f, 1.0f);
   list.AddText(large_, size, {at.x + before, middle - 0.5f * text.y}, kInk, name);
+  if (guest.is_recording)
+    list.AddCircleFilled({at.x + width - kPad - 12.0f, middle}, 12.0f, kRecords, 24);
 }
 
 void BoardSheet::append_tags(std::span<const SceneGuest> guests,

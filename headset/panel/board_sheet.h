@@ -42,10 +42,11 @@ class BoardSheet {
   BoardSheet(const BoardSheet&) = delete;
   BoardSheet& operator=(const BoardSheet&) = delete;
 
-  // Draws the texture anew where it would be another; leaves another framebuffer bound.
-  void draw(const WristPanel& panel, const PanelWords& words, std::span<const SceneGuest> guests);
-  // Of the guests of draw(), facing `eye_W_m`, from far to near; not of those without a head to
-  // see. `anchors_W_m`: over whose heads; as many as guests.
+  // Draws the texture again if its content changed; leaves another framebuffer bound.
+  void draw(const WristPanel& panel, const PanelWords& words, std::span<const SceneGuest> guests,
+            const ShownNames& names = {});
+  // Appends the tags of draw()'s guests, facing `eye_W_m`, from far to near; guests with hidden
+  // heads have none. `anchors_W_m`: the places above their heads, one for each guest.
   void append_tags(std::span<const SceneGuest> guests, std::span<const Eigen::Vector3f> anchors_W_m,
                    const Eigen::Vector3f& eye_W_m, std::vector<Board>& boards) const;
   void append_panel(const WristPanel& panel, std::vector<Board>& boards) const;
@@ -61,6 +62,7 @@ class BoardSheet {
                          std::span<const SceneGuest> guests) const;
 
   Texts texts_;
+  ShownNames names_;  // of draw()
   ImguiOnGl imgui_;
   ImFont* large_ = nullptr;
   ImFont* small_ = nullptr;

@@ -78,6 +78,10 @@ void add_options(CommandLine& line, Wishes& wishes) {
       .range(1.5, 50.0)
       .shows_default();
   line.add_flag("--no-tags", wishes.no_tags, "without names over heads");
+  line.add("--place", headset.place,
+           "studio, bar or terrace; or plain: a floor that fades out at --floor, which is calmer")
+      .one_of({"plain", "studio", "bar", "terrace"})
+      .shows_default();
   using Quality = HeadsetOptions::Quality;
   line.add_choice<Quality>(
       "--quality", headset.quality,

@@ -22,6 +22,7 @@ struct HeadsetOptions {
   float personal_space_m = 0.25f;
   float floor_m = 8.0f;
   bool tags = true;
+  std::string place = "plain";  // like dance view --place; a stage without walls is calmer
   // Plainly: without antialiasing and mirror images, as where there is no graphics card.
   enum class Quality : std::uint8_t { kAuto, kLow, kHigh };
   Quality quality = Quality::kAuto;

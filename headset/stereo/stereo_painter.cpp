@@ -50,13 +50,14 @@ Result<void> StereoPainter::prepare(SceneState& scene, const std::array<StageEye
   for (SceneGuest& guest : scene.guests) guest.hides_head = guest.id == wishes.own;
   keep_personal_space(wishes.comfort, middle.eye_W_m, wishes.own, scene.guests);
   StageLook look;
+  look.place = wishes.place;
   look.trails = scene.shows_trails;
   look.through_eyes_of = wishes.own;
   look.floor = {middle.eye_W_m.x(), middle.eye_W_m.z(), wishes.comfort.floor_m};
   renderer_->set_look(look);
   if (auto prepared = renderer_->prepare(scene, middle, width_px, height_px); !prepared)
     return prepared;
-  sheet_->draw(panel, words, scene.guests);
+  sheet_->draw(panel, words, scene.guests, scene.names);
   find_tag_anchors(scene);
   boards_.clear();
   if (wishes.tags) sheet_->append_tags(scene.guests, tag_anchors_W_m_, middle.eye_W_m, boards_);

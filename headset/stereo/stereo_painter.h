@@ -24,6 +24,7 @@ struct StereoWishes {
   ComfortSettings comfort;
   float darkness = 0.0f;
   bool tags = true;
+  Venue place = Venue::kPlain;
 };
 
 class StereoPainter {
