@@ -12,7 +12,7 @@
 #include <thread>
 #include <utility>
 
-#include "bench/adapter/stage_eye.h"
+#include "bench/adapter/adapter_reader.h"
 #include "consumers/engine/engine_consumer.h"
 #include "core/base/pacer.h"
 #include "core/bus/bus.h"
@@ -64,19 +64,19 @@ class BenchAdapter {
  private:
   Result<void> start(const std::string& name, const std::string& program,
                      const std::vector<std::string>& arguments);
-  Result<void> wait_until_seen(StageEye& eye);
-  void spin(StageEye& eye, Duration span, Spin& spun);
-  void run_frames(StageEye& eye, double hz);
-  void read_once(StageEye& eye, MonoTime display, FrameLoop& loop);
+  Result<void> wait_until_seen(AdapterReader& eye);
+  void spin(AdapterReader& eye, Duration span, Spin& spun);
+  void run_frames(AdapterReader& eye, double hz);
+  void read_once(AdapterReader& eye, MonoTime display, FrameLoop& loop);
   void spin_on_memory();
-  void count(const StageEye& eye);
+  void count(const AdapterReader& eye);
 
   BenchAdapterOptions options_;
   std::string own_program_;
   std::string name_ = "bench-" + std::to_string(::getpid());
   std::unique_ptr<ScratchFolder> scratch_;
   std::string url_;
-  std::unique_ptr<Bus> bus_;  // the other way: the stage over a hop of LCM
+  std::unique_ptr<Bus> bus_;  // the other way: the stage over a hop of the bus
   std::array<MonoTime, 64> other_captured_{};
   std::uint64_t other_heard_ = 0;
   bool is_timing_other_ = false;
@@ -116,7 +116,7 @@ Result<void> BenchAdapter::prepare() {
                 std::to_string(options_.hz)});
 }
 
-Result<void> BenchAdapter::wait_until_seen(StageEye& eye) {
+Result<void> BenchAdapter::wait_until_seen(AdapterReader& eye) {
   for (const MonoTime give_up = mono_now() + kTimeout; !eye.see(options_.guests);) {
     for (auto& [name, child] : children_)
       if (child.has_ended()) {
@@ -135,7 +135,7 @@ Result<void> BenchAdapter::wait_until_seen(StageEye& eye) {
 }
 
 // A reader that does nothing but wait for the next pose of each dancer.
-void BenchAdapter::spin(StageEye& eye, Duration span, Spin& spun) {
+void BenchAdapter::spin(AdapterReader& eye, Duration span, Spin& spun) {
   std::array<std::int64_t, DANCE_MAX_GUESTS> staged{};
   long put_aside = times_put_aside();
   MonoTime looked = mono_now(), resumed;
@@ -157,7 +157,7 @@ void BenchAdapter::spin(StageEye& eye, Duration span, Spin& spun) {
     }
 }
 
-void BenchAdapter::read_once(StageEye& eye, MonoTime display, FrameLoop& loop) {
+void BenchAdapter::read_once(AdapterReader& eye, MonoTime display, FrameLoop& loop) {
   static std::array<unsigned char, DANCE_MAX_GUESTS * sizeof(dance_pose)> copy;
   for (Durations* taken : {&loop.read_at, &loop.read_again})
     result_.watch([&] {
@@ -174,7 +174,7 @@ void BenchAdapter::read_once(StageEye& eye, MonoTime display, FrameLoop& loop) {
   loop.copied.push_back(mono_now() - copying);
 }
 
-void BenchAdapter::run_frames(StageEye& eye, double hz) {
+void BenchAdapter::run_frames(AdapterReader& eye, double hz) {
   FrameLoop& loop = result_.loops.emplace_back();
   loop.hz = hz;
   Pacer frames(mono_now() + Duration::ms(20), hz);
@@ -229,14 +229,14 @@ void BenchAdapter::spin_on_memory() {
       pacer.advance(now);
     }
   });
-  StageEye eye(name);
+  AdapterReader eye(name);
   if (wait_until_seen(eye)) spin(eye, Duration::seconds(options_.seconds), result_.memory);
   is_over = true;
   writer.join();
   count(eye);
 }
 
-void BenchAdapter::count(const StageEye& eye) {
+void BenchAdapter::count(const AdapterReader& eye) {
   const dance_counters counters = eye.counters();
   result_.reads += counters.reads;
   result_.gave_up += counters.busy;
@@ -244,7 +244,7 @@ void BenchAdapter::count(const StageEye& eye) {
 }
 
 Result<BenchAdapterResult> BenchAdapter::run() {
-  StageEye eye(name_);
+  AdapterReader eye(name_);
   if (auto seen = wait_until_seen(eye); !seen) return tl::make_unexpected(seen.error());
   sleep_until(mono_now() + kWarmUp);
   for (const double hz : {60.0, 72.0, 90.0}) run_frames(eye, hz);

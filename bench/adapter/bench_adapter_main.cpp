@@ -3,11 +3,7 @@
 #include <cstdio>
 
 #include "bench/adapter/bench_adapter.h"
-#include "core/bus/bus.h"
-#include "core/bus/multicast_route.h"
 #include "core/program/program.h"
-#include "core/program/talk.h"
-#include "testing/private_network.h"
 
 namespace dance {
 namespace {
@@ -16,7 +12,7 @@ constexpr const char* kExamples = R"(Examples:
   dance bench adapter                         30 dancers at 90 Hz, as a table
   dance bench adapter --guests 30 --hz 90 --seconds 5 --json
 A house with [[listen]] to = "engine" runs beside it; engines at 60, 72 and 90 Hz read it through
-libdance_adapter.so. On a machine without a multicast route over lo all runs in a private network.
+libdance_adapter.so.
 publish_to_read is measured by itself: one thread writes poses, another waits for them, and nothing
 else of this runs. house_to_read is the same from the house's stage, while everything runs.
 Both …_on_processor leave out what was written while the machine had put the reader aside for more
@@ -35,12 +31,6 @@ struct Options {
 Result<void> run(const Options& options) {
   if (!options.dancers.empty())
     return run_dancers(options.dancers, options.bench.guests, options.bench.hz);
-  DANCE_TRY(const BusAddress bus, parse_udpm_url(kDefaultBusUrl));
-  if (multicast_device(bus.group) != "lo") {
-    if (auto entered = enter_private_network(); !entered)
-      return fail(entered.error().what + "; or give lo a multicast route: " + kMulticastCure);
-    talk::info("lo has no multicast route here: measuring in a private network");
-  }
   DANCE_TRY(BenchAdapterResult result,
             run_bench_adapter(options.bench, program_folder() + "/dance-bench-adapter"));
   const std::string text = options.is_json ? bench_adapter_json(options.bench, result)

@@ -53,10 +53,10 @@ std::string bench_adapter_table(const BenchAdapterOptions& options, BenchAdapter
     row("… and at once again", loop.read_again);
     row("reads all dancers as they came", loop.read_newest);
     row("copies as many bytes", loop.copied);
-    row("drains a hop of LCM instead", loop.drained);
+    row("drains a hop of the bus instead", loop.drained);
     row("age of the poses at their use, read then", loop.age_late);
     row("age of the poses at their use, read at the frame's begin", loop.age_early);
-    row("… of a hop of LCM, drained at the frame's begin", loop.age_other_early);
+    row("… of a hop of the bus, drained at the frame's begin", loop.age_other_early);
     out += "\n";
   }
   return out;

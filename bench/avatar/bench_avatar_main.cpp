@@ -12,7 +12,7 @@
 #include "core/program/figures.h"
 #include "core/program/program.h"
 #include "tunnel/link/link.h"
-#include "tunnel/seal/key_files.h"
+#include "tunnel/seal/keys/key_files.h"
 
 namespace dance {
 namespace {
@@ -96,7 +96,7 @@ class BenchAvatar {
 
   Result<std::unique_ptr<Link>> link(const char* name, std::uint16_t port, LinkHandlers handlers) {
     LinkKey key;
-    key.name = kLocalKeyName;
+    key.identity = kLocalKeyName;
     DANCE_TRY(key.key, local_key());
     LinkOptions of;
     of.room = named("bench");

@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
   line.add_flag("--json", wishes.is_json, "one JSON object instead of the table");
   line.footer(dance::kExamples);
   line.finally([&]() -> dance::Result<void> {
-    DANCE_TRY(const dance::PictureSize size, dance::parse_size(wishes.size));
+    DANCE_TRY(const dance::ViewPictureSize size, dance::parse_size(wishes.size));
     wishes.bench.width_px = size.width_px;
     wishes.bench.height_px = size.height_px;
     return {};

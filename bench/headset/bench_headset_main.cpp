@@ -3,11 +3,7 @@
 #include <cstdio>
 
 #include "bench/headset/bench_headset.h"
-#include "core/bus/bus.h"
-#include "core/bus/multicast_route.h"
 #include "core/program/program.h"
-#include "core/program/talk.h"
-#include "testing/private_network.h"
 
 namespace dance {
 namespace {
@@ -15,17 +11,10 @@ namespace {
 constexpr const char* kExamples = R"(Examples:
   dance bench headset                       90 Hz for 10 s, as a table
   dance bench headset --hz 200 --seconds 5
-No headset is needed: a test runtime stands behind OpenXR's own loader. On a machine without a
-multicast route over lo all runs in a private network.
+No headset is needed: a test runtime stands behind OpenXR's own loader.
 )";
 
 Result<void> run(const BenchHeadsetOptions& options) {
-  DANCE_TRY(const BusAddress bus, parse_udpm_url(kDefaultBusUrl));
-  if (multicast_device(bus.group) != "lo") {
-    if (auto entered = enter_private_network(); !entered)
-      return fail(entered.error().what + "; or give lo a multicast route: " + kMulticastCure);
-    talk::info("lo has no multicast route here: measuring in a private network");
-  }
   DANCE_TRY(const BenchHeadsetResult result, run_bench_headset(options));
   std::fputs(bench_headset_table(options, result).c_str(), stdout);
   return {};

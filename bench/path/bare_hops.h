@@ -1,10 +1,10 @@
 // Bare hops: the least that a process between two wires can do, one blocking call in and one call
-// out. What a pose's journey is measured against, so LCM and sockets are used as they are, without
-// this tree's classes.
+// out. A pose's journey is measured against them, so LCM and sockets are used as they are, without
+// this tree's classes. A bus is LCM's library, or a multicast socket over lo with nothing above it.
 //
-// Ownership: each runs until a signal ends its process.
+// Ownership: a hop runs until a signal ends its process; descriptors are the caller's.
 // Threads:   the caller's (and LCM's own).
-// Failure:   return only when something is wrong, with what it was.
+// Failure:   a hop returns only when something is wrong, with what it was.
 #pragma once
 
 #include <cstdint>
@@ -22,5 +22,14 @@ Error forward_udp_to_udp(std::uint16_t from_port, std::uint16_t to_port);
 // Each datagram on 127.0.0.1:from_port as a message of `channel` on the bus.
 Error forward_udp_to_bus(std::uint16_t from_port, const std::string& bus_url,
                          const std::string& channel);
+
+// The same two with a multicast group of this machine in place of the bus.
+Error forward_group_to_udp(std::uint16_t group_port, std::uint16_t to_port);
+Error forward_udp_to_group(std::uint16_t from_port, std::uint16_t group_port);
+
+// Sockets of that group: one that receives what is sent to the port, one that is connected to it.
+// Negative where the kernel refuses; errno says why.
+int open_group_receiver(std::uint16_t port);
+int open_group_sender(std::uint16_t port);
 
 }  // namespace dance

@@ -1,13 +1,14 @@
 #include "bench/path/bench_path.h"
 
-#include <unistd.h>
+#include <sys/socket.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 
+#include "bench/path/bare_hops.h"
+#include "bench/path/measured_way.h"
 #include "core/base/pacer.h"
 #include "core/bus/bus.h"
 #include "core/bus/encode.h"
@@ -22,51 +23,11 @@
 namespace dance {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr Duration kTimeout = Duration::s(15);
 constexpr Duration kWarmUp = Duration::s(1);
 // Longer than any pose on one machine should be under way.
 constexpr Duration kStragglers = Duration::ms(500);
-constexpr const char* kFloorChannel = "BENCH/floor";
 constexpr const char* kGuestName = "alice";
-
-// One way from a bus to another: counts what is sent and times what arrives. Messages are numbered;
-// those of the warm-up count for nothing.
-class Way {
- public:
-  std::uint32_t send(MonoTime now) {
-    sent_at_[sequence_ % sent_at_.size()] = now;
-    if (is_measuring_) ++result_.sent;
-    return sequence_++;
-  }
-  void arrived(std::uint32_t sequence, MonoTime now) {
-    ++arrived_;
-    const std::uint32_t back = sequence_ - 1 - sequence;
-    if (sequence < first_ || back >= sent_at_.size() || !is_measuring_) return;
-    result_.took.push_back(now - sent_at_[sequence % sent_at_.size()]);
-  }
-  void begin_to_measure(std::size_t expected) {
-    result_.took.reserve(expected + 64);
-    first_ = sequence_;
-    is_measuring_ = true;
-  }
-  bool is_open() const { return arrived_ > 0; }
-  bool is_measuring() const { return is_measuring_; }
-  WayResult result() const {
-    WayResult sorted = result_;
-    std::sort(sorted.took.begin(), sorted.took.end());
-    return sorted;
-  }
-
- private:
-  std::array<MonoTime, 4096> sent_at_{};
-  std::uint32_t sequence_ = 1;
-  std::uint32_t first_ = 0;
-  std::uint64_t arrived_ = 0;
-  bool is_measuring_ = false;
-  WayResult result_;
-};
 
 class BenchPath {
  public:
@@ -77,45 +38,70 @@ class BenchPath {
   Result<BenchPathResult> run();
 
  private:
-  Result<std::unique_ptr<Bus>> open_bus(std::string& url);
+  Result<void> open_buses();
   Result<void> start(const std::string& name, const std::string& program,
                      const std::vector<std::string>& arguments);
   Result<void> start_houses();
-  Result<void> start_bare_hops();
+  Result<void> start_bare_hops(const std::string& name, const std::string& bus_to_udp,
+                               const std::string& udp_to_bus, const std::string& option,
+                               const std::string& from, const std::string& to);
   void listen();
-  void send_pose(MonoTime now);
-  void send_floor(MonoTime now);
+  void send_pose();
+  void send_floor();
+  void send_raw_floor();
+  void start_sending();
   Result<void> wait_until_open();
+  void turn_for(Duration span);
+  void begin(Way::Stretch stretch);
+  Result<void> measure_flooded(Duration span);
 
   BenchPathOptions options_;
   std::string own_program_;
   std::unique_ptr<ScratchFolder> scratch_;
   std::unique_ptr<Poller> poller_;
-  std::string url_a_, url_b_, floor_url_a_, floor_url_b_;
-  std::unique_ptr<Bus> bus_a_, bus_b_, floor_bus_a_, floor_bus_b_;
+  std::array<std::uint16_t, 6> ports_{};  // buses A and B of the poses and of the two floors
+  std::unique_ptr<Bus> bus_a_, bus_b_;
+  std::unique_ptr<LcmEnd> floor_a_, floor_b_;
+  int raw_a_ = -1, raw_b_ = -1;
   GuestId guest_ = *GuestId::parse(kGuestName);
   GuestJourney steps_{guest_};
-  Way pose_way_, floor_way_;
+  Way pose_way_, floor_way_, raw_way_;
+  bool is_sending_ = true;
   std::vector<std::pair<std::string, ChildProcess>> children_;
 };
 
-Result<std::unique_ptr<Bus>> BenchPath::open_bus(std::string& url) {
-  DANCE_TRY(const std::uint16_t port, free_loopback_port());
-  url = "udpm://239.255.76.67:" + std::to_string(port) + "?ttl=0";
-  return Bus::open(url);
+std::string url_of(std::uint16_t port) {
+  return "udpm://239.255.76.67:" + std::to_string(port) + "?ttl=0";
+}
+
+Result<void> BenchPath::open_buses() {
+  for (std::uint16_t& port : ports_) {
+    DANCE_TRY(port, free_loopback_port());
+  }
+  DANCE_TRY(bus_a_, Bus::open(url_of(ports_[0])));
+  DANCE_TRY(bus_b_, Bus::open(url_of(ports_[1])));
+  floor_a_ = std::make_unique<LcmEnd>(url_of(ports_[2]));
+  floor_b_ = std::make_unique<LcmEnd>(url_of(ports_[3]));
+  if (!floor_a_->is_open() || !floor_b_->is_open()) return fail("the floor: LCM opens no bus");
+  raw_a_ = open_group_sender(ports_[4]);
+  raw_b_ = open_group_receiver(ports_[5]);
+  if (raw_a_ < 0 || raw_b_ < 0) return fail("the floor: the kernel opens no multicast socket");
+  return {};
 }
 
 Result<void> BenchPath::prepare() {
   DANCE_TRY(scratch_, ScratchFolder::make());
   DANCE_TRY(poller_, Poller::create());
   if (auto stops = poller_->stop_on_signals(); !stops) return stops;
-  DANCE_TRY(bus_a_, open_bus(url_a_));
-  DANCE_TRY(bus_b_, open_bus(url_b_));
-  DANCE_TRY(floor_bus_a_, open_bus(floor_url_a_));
-  DANCE_TRY(floor_bus_b_, open_bus(floor_url_b_));
+  if (auto opened = open_buses(); !opened) return opened;
   listen();
   if (auto started = start_houses(); !started) return started;
-  return start_bare_hops();
+  if (auto started = start_bare_hops("bare-hop", "bus-to-udp", "udp-to-bus", "--url",
+                                     url_of(ports_[2]), url_of(ports_[3]));
+      !started)
+    return started;
+  return start_bare_hops("raw-hop", "group-to-udp", "udp-to-group", "--group-port",
+                         std::to_string(ports_[4]), std::to_string(ports_[5]));
 }
 
 Result<void> BenchPath::start(const std::string& name, const std::string& program,
@@ -132,8 +118,9 @@ Result<void> BenchPath::start_houses() {
   const std::string server = "127.0.0.1:" + std::to_string(port);
   const std::string sessions[2] = {
       "[house]\nguest = \"" + std::string(kGuestName) + "\"\nroom = \"bench\"\nserver = \"" +
-          server + "\"\nbus = \"" + url_a_ + "\"\n",
-      "[house]\nroom = \"bench\"\nserver = \"" + server + "\"\nbus = \"" + url_b_ +
+          server + "\"\nbus = \"" + url_of(ports_[0]) + "\"\nbus_captures = [\"" +
+          std::string(kGuestName) + "\"]\n",
+      "[house]\nroom = \"bench\"\nserver = \"" + server + "\"\nbus = \"" + url_of(ports_[1]) +
           "\"\n[[route]]\nfrom = \"POSE/guest/*\"\nto = \"POSE/stage/*\"\n"};
   if (auto started = start("server", program_folder() + "/dance-server",
                            {"--bind", "127.0.0.1", "--port", std::to_string(port)});
@@ -150,16 +137,18 @@ Result<void> BenchPath::start_houses() {
   return {};
 }
 
-Result<void> BenchPath::start_bare_hops() {
+Result<void> BenchPath::start_bare_hops(const std::string& name, const std::string& bus_to_udp,
+                                        const std::string& udp_to_bus, const std::string& option,
+                                        const std::string& from, const std::string& to) {
   DANCE_TRY(const std::uint16_t first, free_loopback_port());
   DANCE_TRY(const std::uint16_t second, free_loopback_port());
   const std::string up = std::to_string(first), down = std::to_string(second);
   const std::vector<std::string> hops[3] = {
-      {"--bare-hop", "bus-to-udp", "--url", floor_url_a_, "--to-port", up},
+      {"--bare-hop", bus_to_udp, option, from, "--to-port", up},
       {"--bare-hop", "udp-to-udp", "--from-port", up, "--to-port", down},
-      {"--bare-hop", "udp-to-bus", "--from-port", down, "--url", floor_url_b_}};
+      {"--bare-hop", udp_to_bus, "--from-port", down, option, to}};
   for (int hop = 0; hop < 3; ++hop)
-    if (auto started = start("bare-hop-" + std::to_string(hop + 1), own_program_, hops[hop]);
+    if (auto started = start(name + "-" + std::to_string(hop + 1), own_program_, hops[hop]);
         !started)
       return started;
   return {};
@@ -172,15 +161,21 @@ void BenchPath::listen() {
                             pose_way_.arrived(pose.sequence, now);
                             if (pose_way_.is_measuring()) steps_.heard(pose, now, this_clock_id());
                           });
-  floor_bus_b_->on_anything(
-      [this](std::string_view channel, const void* data, std::size_t size, MonoTime) {
-        // Decoded as the other way's is: what hearing a pose costs is on both sides.
-        Pose pose;
-        if (channel == kFloorChannel && decode(data, size, pose) == Decoded::kFine)
-          floor_way_.arrived(pose.sequence, mono_now());
-      });
-  for (Bus* bus : {bus_b_.get(), floor_bus_b_.get()})
-    poller_->watch(bus->fd(), [bus](MonoTime now) { bus->drain(now); });
+  poller_->watch(bus_b_->fd(), [this](MonoTime now) { bus_b_->drain(now); });
+  // Decoded on every way, as receiving a pose includes it.
+  const auto decode_for = [](Way& way, const void* data, std::size_t size) {
+    Pose pose;
+    if (decode(data, size, pose) == Decoded::kFine) way.arrived(pose.sequence, mono_now());
+  };
+  floor_b_->listen(*poller_, [this, decode_for](const void* data, std::size_t size) {
+    decode_for(floor_way_, data, size);
+  });
+  poller_->watch(raw_b_, [this, decode_for](MonoTime) {
+    std::array<std::uint8_t, 2048> datagram;
+    for (ssize_t size = 0;
+         (size = recv(raw_b_, datagram.data(), datagram.size(), MSG_DONTWAIT)) > 0;)
+      decode_for(raw_way_, datagram.data(), static_cast<std::size_t>(size));
+  });
 }
 
 // A dancer who turns the head and sways, so that no two poses are alike.
@@ -196,7 +191,7 @@ Pose pose_at(MonoTime now) {
   return pose;
 }
 
-void BenchPath::send_pose(MonoTime) {
+void BenchPath::send_pose() {
   const MonoTime now = mono_now();
   Pose pose = pose_at(now);
   pose.sequence = pose_way_.send(now);
@@ -204,18 +199,47 @@ void BenchPath::send_pose(MonoTime) {
   bus_a_->publish(Channel::of(Signal::kPose, Where::kCapture, guest_), pose);
 }
 
-void BenchPath::send_floor(MonoTime) {
+void BenchPath::send_floor() {
   const MonoTime now = mono_now();
   Pose pose = pose_at(now);
   pose.sequence = floor_way_.send(now);
   MessageBuffer buffer;
   const std::size_t size = encode(pose, buffer);
-  floor_bus_a_->publish_raw(kFloorChannel, buffer.data(), size);
+  floor_a_->publish(buffer, size);
+}
+
+void BenchPath::send_raw_floor() {
+  const MonoTime now = mono_now();
+  Pose pose = pose_at(now);
+  pose.sequence = raw_way_.send(now);
+  MessageBuffer buffer;
+  const std::size_t size = encode(pose, buffer);
+  // A datagram that cannot be sent counts as not delivered.
+  [[maybe_unused]] const auto sent = ::send(raw_a_, buffer.data(), size, 0);
+}
+
+// Turn about, a third of a period apart, so that no way meets another's messages.
+void BenchPath::start_sending() {
+  const MonoTime begin = mono_now() + Duration::ms(10);
+  const auto every_period = [&](double offset, void (BenchPath::*send_one)()) {
+    const MonoTime first = begin + Duration::seconds(offset / options_.hz);
+    poller_->add_timer(first,
+                       [this, send_one, pacer = Pacer(first, options_.hz)](MonoTime now) mutable {
+                         if (!is_sending_) return MonoTime();
+                         (this->*send_one)();
+                         pacer.advance(now);
+                         return pacer.deadline();
+                       });
+  };
+  every_period(0.0, &BenchPath::send_pose);
+  every_period(1.0 / 3.0, &BenchPath::send_floor);
+  every_period(2.0 / 3.0, &BenchPath::send_raw_floor);
 }
 
 Result<void> BenchPath::wait_until_open() {
   const MonoTime give_up = mono_now() + kTimeout;
-  while (!(pose_way_.is_open() && floor_way_.is_open()) && !poller_->is_stopped()) {
+  while (!(pose_way_.is_open() && floor_way_.is_open() && raw_way_.is_open()) &&
+         !poller_->is_stopped()) {
     for (auto& [name, child] : children_)
       if (child.has_ended()) {
         std::ifstream talk(scratch_->file(name + ".txt"));
@@ -231,38 +255,63 @@ Result<void> BenchPath::wait_until_open() {
   return {};
 }
 
+void BenchPath::turn_for(Duration span) {
+  for (const MonoTime end = mono_now() + span; mono_now() < end && !poller_->is_stopped();)
+    poller_->run_once(Duration::ms(20));
+}
+
+void BenchPath::begin(Way::Stretch stretch) {
+  for (Way* way : {&pose_way_, &floor_way_, &raw_way_}) way->begin(stretch);
+}
+
+Result<void> BenchPath::measure_flooded(Duration span) {
+  DANCE_TRY(ChildProcess flood,
+            ChildProcess::start(
+                {own_program_,
+                 {"--bare-hop", "flood", "--from-port", std::to_string(ports_[0]), "--to-port",
+                  std::to_string(ports_[1]), "--flood", std::to_string(options_.flood_hz)},
+                 scratch_->file("flood.out"),
+                 scratch_->file("flood.txt")}));
+  turn_for(kStragglers);
+  begin(Way::Stretch::kFlooded);
+  turn_for(span);
+  if (flood.has_ended()) return fail("the flood ended: " + flood.exit_text());
+  begin(Way::Stretch::kNone);
+  flood.stop(Duration::s(5));
+  turn_for(kStragglers);
+  return {};
+}
+
 Result<BenchPathResult> BenchPath::run() {
-  // Turn about, half a period apart, so that neither way meets the other's messages.
-  const MonoTime begin = mono_now() + Duration::ms(10);
-  const Duration half = Duration::seconds(0.5 / options_.hz);
-  Pacer pose_pacer(begin, options_.hz), floor_pacer(begin + half, options_.hz);
-  bool is_sending = true;
-  poller_->add_timer(begin, [&](MonoTime now) {
-    if (!is_sending) return MonoTime();
-    send_pose(now);
-    pose_pacer.advance(now);
-    return pose_pacer.deadline();
-  });
-  poller_->add_timer(begin + half, [&](MonoTime now) {
-    if (!is_sending) return MonoTime();
-    send_floor(now);
-    floor_pacer.advance(now);
-    return floor_pacer.deadline();
-  });
-  const auto turn_for = [&](Duration span) {
-    for (const MonoTime end = mono_now() + span; mono_now() < end && !poller_->is_stopped();)
-      poller_->run_once(Duration::ms(20));
-  };
+  start_sending();
   if (auto open = wait_until_open(); !open) return tl::make_unexpected(open.error());
   turn_for(kWarmUp);
-  const auto expected = static_cast<std::size_t>(options_.hz * options_.seconds);
-  pose_way_.begin_to_measure(expected);
-  floor_way_.begin_to_measure(expected);
-  turn_for(Duration::seconds(options_.seconds));
-  is_sending = false;
+  for (Way* way : {&pose_way_, &floor_way_, &raw_way_})
+    way->expect(static_cast<std::size_t>(options_.hz * options_.seconds));
+  const bool is_flooded = options_.flood_hz > 0.0;
+  const int stretches = is_flooded ? std::max(2, static_cast<int>(options_.seconds / 5.0)) : 1;
+  const Duration span = Duration::seconds(options_.seconds / stretches);
+  for (int i = 0; i < stretches && !poller_->is_stopped(); ++i) {
+    if (i % 2 == 1) {
+      if (auto measured = measure_flooded(span); !measured)
+        return tl::make_unexpected(measured.error());
+      continue;
+    }
+    begin(Way::Stretch::kQuiet);
+    turn_for(span);
+    begin(Way::Stretch::kNone);
+  }
+  is_sending_ = false;
   turn_for(kStragglers);
   if (poller_->is_stopped()) return fail("stopped by a signal before the end");
-  return BenchPathResult{pose_way_.result(), floor_way_.result(), std::move(steps_)};
+  constexpr auto kQuiet = Way::Stretch::kQuiet;
+  BenchPathResult result{pose_way_.result(kQuiet),
+                         floor_way_.result(kQuiet),
+                         raw_way_.result(kQuiet),
+                         std::move(steps_),
+                         {}};
+  if (is_flooded) result.flooded_pose = pose_way_.result(Way::Stretch::kFlooded);
+  return result;
 }
 
 }  // namespace

@@ -1,18 +1,20 @@
 // BenchPath: how long a pose takes from one house's bus to the stage of the other, and, in the same
-// run and turn about, how long the same number of bare hops takes.
+// run and turn about, how long the same number of bare hops takes: with LCM's library as the bus,
+// and with bare multicast sockets. With a flood, hostile datagrams are sent to both buses in every
+// second stretch of the run.
 //
 //   pose:  bus A ─► dance-join ─UDP─► dance-server ─UDP─► dance-join ─► bus B
 //   floor: bus A' ─► bare hop ─UDP─► bare hop ─UDP─► bare hop ─► bus B'
 //
 // Units/frames: microseconds of this machine's clock; all processes share it.
 // Ownership:    owns the processes and their session files, which end with it.
-// Threads:      none inside; runs its poller in the caller's thread.
 // Failure:      run_bench_path() names the program that could not start, or the way that stayed
 //               silent.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,10 +26,11 @@ namespace dance {
 
 struct BenchPathOptions {
   double hz = 60.0;
-  double seconds = 10.0;
+  double seconds = 10.0;  // with a flood: half of them during it
+  double flood_hz = 0.0;  // hostile datagrams a second; 0: none
 };
 
-// What came through one of the two ways.
+// Results of one of the measured ways.
 struct WayResult {
   std::uint64_t sent = 0;
   std::vector<Duration> took;  // of each that was delivered, sorted
@@ -38,8 +41,10 @@ struct WayResult {
 
 struct BenchPathResult {
   WayResult pose;
-  WayResult floor;
-  GuestJourney steps;  // where the pose's time went
+  WayResult floor;      // LCM's library
+  WayResult raw_floor;  // bare multicast sockets
+  GuestJourney steps;   // where the pose's time went
+  std::optional<WayResult> flooded_pose;
 };
 
 // `own_program` is this program's path: it serves as the bare hops too.

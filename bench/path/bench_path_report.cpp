@@ -11,9 +11,9 @@
 namespace dance {
 namespace {
 
-double ratio(const BenchPathResult& result, double fraction) {
-  const double floor_us = result.floor.percentile_us(fraction);
-  return floor_us > 0.0 ? result.pose.percentile_us(fraction) / floor_us : 0.0;
+double ratio(const WayResult& way, const WayResult& floor, double fraction) {
+  const double floor_us = floor.percentile_us(fraction);
+  return floor_us > 0.0 ? way.percentile_us(fraction) / floor_us : 0.0;
 }
 
 }  // namespace
@@ -32,9 +32,19 @@ std::string bench_path_table(const BenchPathOptions& options, const BenchPathRes
                    way.percentile_us(1.0), way.sent, way.took.size());
   };
   row("a pose", result.pose);
-  row("as many bare hops", result.floor);
-  fmt::format_to(back, "  {:<28}{:>9.2f}{:>9.2f}{:>9.2f}\n\n", "times the floor",
-                 ratio(result, 0.50), ratio(result, 0.95), ratio(result, 0.99));
+  row("as many bare hops, LCM", result.floor);
+  row("as many bare hops, sockets", result.raw_floor);
+  const auto ratios = [&](const char* name, const WayResult& way, const WayResult& floor) {
+    fmt::format_to(back, "  {:<28}{:>9.2f}{:>9.2f}{:>9.2f}\n", name, ratio(way, floor, 0.50),
+                   ratio(way, floor, 0.95), ratio(way, floor, 0.99));
+  };
+  ratios("times the floor of LCM", result.pose, result.floor);
+  ratios("times the floor of sockets", result.pose, result.raw_floor);
+  if (result.flooded_pose) {
+    row(fmt::format("a pose, {:g} hostile a s", options.flood_hz).c_str(), *result.flooded_pose);
+    ratios("times a pose without them", *result.flooded_pose, result.pose);
+  }
+  out += "\n";
   out += "where the pose's time went:\n";
   out += journey_table(result.steps);
   return out;
@@ -51,8 +61,19 @@ std::string bench_path_json(const BenchPathOptions& options, const BenchPathResu
   };
   add("", result.pose);
   add("floor_", result.floor);
-  report["ratio_p50"] = rounded(ratio(result, 0.50), 1000.0);
-  report["ratio_p99"] = rounded(ratio(result, 0.99), 1000.0);
+  add("raw_floor_", result.raw_floor);
+  const auto add_ratios = [&](const std::string& prefix, const WayResult& way,
+                              const WayResult& floor) {
+    report[prefix + "ratio_p50"] = rounded(ratio(way, floor, 0.50), 1000.0);
+    report[prefix + "ratio_p99"] = rounded(ratio(way, floor, 0.99), 1000.0);
+  };
+  add_ratios("", result.pose, result.floor);
+  add_ratios("raw_", result.pose, result.raw_floor);
+  if (result.flooded_pose) {
+    report["flood_hz"] = options.flood_hz;
+    add("flooded_", *result.flooded_pose);
+    add_ratios("flooded_", *result.flooded_pose, result.pose);
+  }
   return report.dump(2) + "\n";
 }
 

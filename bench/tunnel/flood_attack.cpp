@@ -48,7 +48,8 @@ FloodAttack::~FloodAttack() {
 
 void FloodAttack::make_hello() {
   OneDatagram sink;
-  auto context = SealContext::for_link("nobody", PresharedKey::make());
+  auto context = SealContext::for_link(identity_text("nobody", PrivateKey::make().public_key()),
+                                       PresharedKey::make(), PublicKey());
   if (!context) return;
   SealClient client(std::move(*context), secure_random_u64, {}, sink);
   client.tick(mono_now());
@@ -121,7 +122,7 @@ void FloodAttack::take_answers() {
 // A whole handshake, whose answers are waited for: what is wrong is the key alone.
 void FloodAttack::try_wrong_key(MonoTime now) {
   auto socket = UdpSocket::connect(options_.server);
-  auto context = SealContext::for_link("local", PresharedKey::make());
+  auto context = SealContext::for_link("local", PresharedKey::make(), PublicKey());
   if (!socket || !context) return;
   Totals more;
   struct Sink final : DatagramSink {

@@ -6,7 +6,7 @@
 #include "core/net/mono_clock.h"
 #include "testing/undecoded_poses.h"
 #include "tunnel/link/link.h"
-#include "tunnel/seal/key_files.h"
+#include "tunnel/seal/keys/key_files.h"
 
 namespace dance {
 namespace {
@@ -40,7 +40,7 @@ class TunnelCrowd final : public Crowd {
  public:
   Result<void> open(const CrowdOptions& options, Poller& poller) {
     LinkKey key;
-    key.name = kLocalKeyName;
+    key.identity = kLocalKeyName;
     DANCE_TRY(key.key, local_key());
     for (std::size_t i = 0; i < options.guests; ++i) {
       LinkOptions of;

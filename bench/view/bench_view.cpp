@@ -97,6 +97,7 @@ struct Lane {
   BenchViewRow row;
   Crowd crowd;
   bool is_stereo = false;
+  Venue place = Venue::kPlain;
 };
 
 // Where the camera is, side by side, as wide open as headsets are.
@@ -139,7 +140,15 @@ Result<void> draw(Lane& lane, StageRenderer& renderer, const OrbitCamera& camera
 
 Result<std::vector<Lane>> lanes_of(const BenchViewOptions& options) {
   std::vector<Lane> lanes;
-  const Crowd crowd(options.guests);
+  Crowd crowd(options.guests);
+  if (options.places) {
+    crowd.wear_mannequins();
+    for (const PlaceName& it : kPlaceNames) {
+      lanes.emplace_back(it.option.data(), crowd);
+      lanes.back().place = it.place;
+    }
+    return lanes;
+  }
   lanes.emplace_back("empty_stage", crowd);
   lanes.back().crowd.leave();
   lanes.emplace_back("mannequins", crowd);
@@ -163,7 +172,11 @@ Result<std::vector<Lane>> lanes_of(const BenchViewOptions& options) {
 Result<BenchViewResult> run_bench_view(const BenchViewOptions& options) {
   DANCE_TRY(std::vector<Lane> lanes, lanes_of(options));
   DANCE_TRY(const auto context, OffscreenContext::create());
-  DANCE_TRY(const auto renderer, StageRenderer::create(options.quality));
+  // A renderer makes a place when it shows it, so each place has a renderer of its own.
+  std::vector<std::unique_ptr<StageRenderer>> renderers(options.places ? lanes.size() : 1);
+  for (auto& renderer : renderers) {
+    DANCE_TRY(renderer, StageRenderer::create(options.quality));
+  }
   const OrbitCamera camera = lanes[1].crowd.camera(static_cast<float>(options.width_px) /
                                                    static_cast<float>(options.height_px));
   MonoTime begun;
@@ -175,13 +188,15 @@ Result<BenchViewResult> run_bench_view(const BenchViewOptions& options) {
     for (std::size_t l = 0; l < lanes.size(); ++l) {
       StageLook look;
       look.stage = static_cast<int>(l);
-      renderer->set_look(look);
-      if (auto drawn = draw(lanes[l], *renderer, camera, options, s, counts); !drawn)
+      look.place = lanes[l].place;
+      StageRenderer& renderer = *renderers[l % renderers.size()];
+      renderer.set_look(look);
+      if (auto drawn = draw(lanes[l], renderer, camera, options, s, counts); !drawn)
         return tl::make_unexpected(drawn.error());
     }
   }
   if (!options.picture.empty()) {
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, renderer->target().finished().name());
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, renderers.back()->target().finished().name());
     const Picture picture = read_bound_framebuffer(options.width_px, options.height_px);
     if (auto written = write_png(options.picture, picture); !written)
       return tl::make_unexpected(written.error());

@@ -1,5 +1,5 @@
-// What a picture of the stage costs: the empty floor, mannequins and avatars in one run, picture by
-// picture in turn, so that a busy machine slows all alike.
+// Measures the cost of a picture of the stage: the empty floor, mannequins, avatars and places in
+// one run, picture by picture in turn, so that a busy machine slows all alike.
 //
 // Units/frames: milliseconds; pixels.
 // Ownership:    plain values.
@@ -23,6 +23,7 @@ struct BenchViewOptions {
   int height_px = 720;
   Quality quality = Quality::kHigh;
   double seconds = 10.0;
+  bool places = false;  // instead: the guests as mannequins in each place, beside the plain stage
   bool stereo = false;  // each row also for the two eyes of a headset, of that size each
   std::string picture;  // a PNG file of the last picture of the last row; "": none
 };
@@ -40,7 +41,7 @@ struct BenchViewRow {
 
 struct BenchViewResult {
   std::string renderer;
-  std::vector<BenchViewRow> rows;  // the empty stage first
+  std::vector<BenchViewRow> rows;  // the empty stage first; with places the plain stage
 };
 
 Result<BenchViewResult> run_bench_view(const BenchViewOptions& options);

@@ -13,6 +13,8 @@ constexpr const char* kExamples = R"(Examples:
   dance bench view                                       30 mannequins beside the empty stage
   dance bench view --avatar dancer.vrm --json            and 30 times that avatar
   dance bench view --stereo --size 1440x1600             and for both eyes of a headset
+  dance bench view --places --guests 2 --size 640x360 --quality low
+                                                         a couple in each place, and without
   dance bench view --size 640x360 --quality low          as on a computer without a graphics card
 Pictures of all rows are drawn in turn; each counts until the card has finished it.
 )";
@@ -24,9 +26,11 @@ struct Wishes {
 };
 
 Result<void> finish(Wishes& wishes) {
-  DANCE_TRY(const PictureSize size, parse_size(wishes.size));
+  DANCE_TRY(const ViewPictureSize size, parse_size(wishes.size));
   wishes.bench.width_px = size.width_px;
   wishes.bench.height_px = size.height_px;
+  if (wishes.bench.places && (wishes.bench.stereo || !wishes.bench.avatar.empty()))
+    return fail("--places takes no --stereo and no --avatar; measure them without it");
   return {};
 }
 
@@ -52,6 +56,8 @@ int main(int argc, char** argv) {
   line.add_choice<dance::Quality>("--quality", bench.quality,
                                   {{"low", dance::Quality::kLow}, {"high", dance::Quality::kHigh}},
                                   "low or high");
+  line.add_flag("--places", bench.places,
+                "instead: the guests in each place, and the ratio to the plain stage");
   line.add_flag("--stereo", bench.stereo,
                 "a row more for each, of both eyes of a headset, each of that size");
   line.add("--seconds", bench.seconds, "how long to measure").range(0.1, 3600.0).shows_default();

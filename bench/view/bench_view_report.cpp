@@ -13,6 +13,14 @@ double at(const std::vector<double>& sorted, double fraction) {
   return percentile(std::span<const double>(sorted), fraction);
 }
 
+// The ratio of one row to the first, the plain stage. Processor time is steadier on a busy machine.
+double ratio_to_plain(const BenchViewResult& result, const BenchViewRow& row) {
+  return at(row.frame_ms, 0.5) / at(result.rows.front().frame_ms, 0.5);
+}
+double cpu_ratio_to_plain(const BenchViewResult& result, const BenchViewRow& row) {
+  return at(row.cpu_ms, 0.5) / at(result.rows.front().cpu_ms, 0.5);
+}
+
 nlohmann::ordered_json json_of(const BenchViewRow& row) {
   const auto ms = [](double value) { return rounded(value, 1000.0); };
   return {{"cpu_ms_per_frame_p50", ms(at(row.cpu_ms, 0.5))},
@@ -43,6 +51,11 @@ std::string bench_view_table(const BenchViewOptions& options, const BenchViewRes
                    row.name, at(row.frame_ms, 0.5), at(row.frame_ms, 0.99), at(row.frame_ms, 0.0),
                    at(row.cpu_ms, 0.5), at(row.retarget_upload_ms, 0.5), at(row.submit_ms, 0.5),
                    row.triangles, row.draw_calls, row.frame_ms.size());
+  if (!options.places) return out;
+  for (const BenchViewRow& row : result.rows)
+    if (&row != &result.rows.front())
+      fmt::format_to(back, "  {} / plain: {:.3f}, of processor time {:.3f}\n", row.name,
+                     ratio_to_plain(result, row), cpu_ratio_to_plain(result, row));
   return out;
 }
 
@@ -54,6 +67,11 @@ std::string bench_view_json(const BenchViewOptions& options, const BenchViewResu
                                 {"renderer", result.renderer}};
   report.update(json_of(result.rows.back()));
   for (const BenchViewRow& row : result.rows) report[row.name] = json_of(row);
+  if (options.places)
+    for (const BenchViewRow& row : result.rows)
+      report[row.name].update(
+          {{"ratio_to_plain", rounded(ratio_to_plain(result, row), 1000.0)},
+           {"cpu_ratio_to_plain", rounded(cpu_ratio_to_plain(result, row), 1000.0)}});
   return report.dump(2) + "\n";
 }
 

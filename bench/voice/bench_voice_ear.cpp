@@ -15,7 +15,7 @@ constexpr Duration kEarMost = Duration::s(60);
 constexpr int kEarNice = -15;
 constexpr double kEarDemand_ms = 60.0;
 
-Result<BenchReport> measure_ear(TwoHouses& houses, const char* name, const Speech& speech) {
+Result<BenchReport> measure_ear(VoiceHouses& houses, const char* name, const Speech& speech) {
   SoundRooms& rooms = houses.rooms();
   DANCE_TRY(const std::size_t mouth, rooms.listen("mouth-a"));
   DANCE_TRY(const std::size_t ear, rooms.listen("ear-b"));
@@ -68,14 +68,14 @@ Result<BenchReport> bench_voice_ear(const Speech& speech, const std::string& fol
       "speaker", "listener");
   struct EarCase {
     const char* name;
-    TwoHouses::Options options;
+    VoiceHouses::Options options;
   };
   const std::array cases{EarCase{"as by default", {{}, true, false}},
                          EarCase{"without the tunnel", {{}, false, false}},
                          EarCase{"--low-delay", {{"--low-delay"}, true, false}},
                          EarCase{"--buffer 100", {{"--buffer", "100"}, true, false}}};
   for (const auto& [name, options] : cases) {
-    TwoHouses houses(folder);
+    VoiceHouses houses(folder);
     if (auto started = houses.start(options); !started) return tl::make_unexpected(started.error());
     DANCE_TRY(const BenchReport one, measure_ear(houses, name, speech));
     report.text += one.text;

@@ -35,7 +35,7 @@ Speech plain_music(std::size_t samples) {
 }
 
 // How loud it is at alice's ear, against what is heard at a loudspeaker in bob's room.
-Result<double> comes_back_db(TwoHouses& houses, const std::string& sink, const Speech& sound,
+Result<double> comes_back_db(VoiceHouses& houses, const std::string& sink, const Speech& sound,
                              const std::string& from = "ear-b") {
   SoundRooms& rooms = houses.rooms();
   DANCE_TRY(const std::size_t loudspeaker, rooms.listen(from));
@@ -67,8 +67,8 @@ Result<BenchReport> bench_voice_room(const Speech& speech, const std::string& fo
   };
   for (const Way& way :
        {Way{"off", false, ""}, Way{"on", true, ""}, Way{"on, --reference", true, "music-b"}}) {
-    TwoHouses houses(folder);
-    TwoHouses::Options options;
+    VoiceHouses houses(folder);
+    VoiceHouses::Options options;
     options.bob_hears_his_loudspeaker = true;
     options.voice_words = {"--no-cleaning"};
     if (!way.is_on) options.voice_words.emplace_back("--no-echo-cancellation");

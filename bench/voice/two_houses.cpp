@@ -16,23 +16,23 @@ constexpr Duration kHousesEnd = Duration::s(5);
 
 }  // namespace
 
-TwoHouses::~TwoHouses() {
+VoiceHouses::~VoiceHouses() {
   if (bus_a_) poller_->unwatch(bus_a_->fd());
   end();
 }
 
-void TwoHouses::end() {
+void VoiceHouses::end() {
   for (auto one = running_.rbegin(); one != running_.rend(); ++one) one->process.stop(kHousesEnd);
 }
 
-std::string TwoHouses::text_of(const std::string& file) const {
+std::string VoiceHouses::text_of(const std::string& file) const {
   std::stringstream text;
   text << std::ifstream(folder_ + "/" + file).rdbuf();
   return text.str();
 }
 
-Result<void> TwoHouses::run(const std::string& name, const std::string& program,
-                            const std::vector<std::string>& words) {
+Result<void> VoiceHouses::run(const std::string& name, const std::string& program,
+                              const std::vector<std::string>& words) {
   // What a run before said is not this one's.
   std::error_code ignored;
   for (const char* end : {".out", ".talk"})
@@ -44,7 +44,7 @@ Result<void> TwoHouses::run(const std::string& name, const std::string& program,
   return {};
 }
 
-Result<void> TwoHouses::hand_over() {
+Result<void> VoiceHouses::hand_over() {
   DANCE_TRY(bus_a_, Bus::open(url_a_));
   DANCE_TRY(bus_b_, Bus::open(url_b_));
   bus_a_->subscribe<Voice>(Where::kCapture,
@@ -55,7 +55,7 @@ Result<void> TwoHouses::hand_over() {
   return {};
 }
 
-Result<void> TwoHouses::open_house(bool is_a, const Options& options) {
+Result<void> VoiceHouses::open_house(bool is_a, const Options& options) {
   const std::string guest = is_a ? "alice" : "bob";
   const std::string& bus = is_a ? url_a_ : url_b_;
   if (options.has_server) {
@@ -72,7 +72,7 @@ Result<void> TwoHouses::open_house(bool is_a, const Options& options) {
   return run("voice-" + guest, "dance-voice", words);
 }
 
-Result<void> TwoHouses::start(const Options& options) {
+Result<void> VoiceHouses::start(const Options& options) {
   const auto url = [&](std::uint16_t port) {
     return "udpm://239.255.76.67:" + std::to_string(port) + "?ttl=0";
   };
@@ -96,7 +96,7 @@ Result<void> TwoHouses::start(const Options& options) {
   return started;
 }
 
-void TwoHouses::work_for(Duration time, const std::function<bool()>& is_done) {
+void VoiceHouses::work_for(Duration time, const std::function<bool()>& is_done) {
   const MonoTime end = mono_now() + time;
   while (mono_now() < end && !is_done()) {
     poller_->run_once(Duration::ms(2));
@@ -104,11 +104,11 @@ void TwoHouses::work_for(Duration time, const std::function<bool()>& is_done) {
   }
 }
 
-void TwoHouses::begin_to_count_cpu() {
+void VoiceHouses::begin_to_count_cpu() {
   for (Running& one : running_) one.cpu_before = one.process.cpu_time();
 }
 
-double TwoHouses::cpu_percent(const std::string& program, Duration over) const {
+double VoiceHouses::cpu_percent(const std::string& program, Duration over) const {
   for (const Running& one : running_)
     if (one.name == program)
       return 100.0 * (one.process.cpu_time() - one.cpu_before).as_seconds() / over.as_seconds();

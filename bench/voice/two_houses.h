@@ -19,7 +19,7 @@
 
 namespace dance {
 
-class TwoHouses {
+class VoiceHouses {
  public:
   struct Options {
     std::vector<std::string> voice_words;  // of both
@@ -28,10 +28,10 @@ class TwoHouses {
     bool bob_hears_his_loudspeaker = false;  // with his microphone
   };
 
-  explicit TwoHouses(const std::string& folder) : folder_(folder) {}
-  ~TwoHouses();
-  TwoHouses(const TwoHouses&) = delete;
-  TwoHouses& operator=(const TwoHouses&) = delete;
+  explicit VoiceHouses(const std::string& folder) : folder_(folder) {}
+  ~VoiceHouses();
+  VoiceHouses(const VoiceHouses&) = delete;
+  VoiceHouses& operator=(const VoiceHouses&) = delete;
 
   // Returns once all have had time to find each other.
   Result<void> start(const Options& options);

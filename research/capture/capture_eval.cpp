@@ -158,7 +158,7 @@ void CaptureEval::take_several(const Frame& frame, std::vector<CapturedPerson>& 
 }
 
 Result<void> CaptureEval::take(PoseEstimator* of_one, const Frame& frame, std::string name) {
-  CaptureFrame& seen = run_.frames.emplace_back();
+  EvaluatedFrame& seen = run_.frames.emplace_back();
   seen.name = std::move(name);
   seen.people.resize(options_.people);
   if (several_) {

@@ -40,7 +40,7 @@ struct CapturedPerson {
   std::array<HandLandmarks, 2> hands;  // left, right
   FaceLandmarks face;
 };
-struct CaptureFrame {
+struct EvaluatedFrame {
   std::string name;  // "messi.jpg", "dance.mp4#12"
   // As many as were asked for, each in one place throughout a video, found or not.
   std::vector<CapturedPerson> people;
@@ -56,7 +56,7 @@ struct EngineComparison {
 };
 
 struct CaptureRun {
-  std::vector<CaptureFrame> frames;
+  std::vector<EvaluatedFrame> frames;
   double ms = 0.0;  // estimating, all frames together
   double decode_ms = 0.0;
   double hands_ms = 0.0;  // of both

@@ -99,7 +99,7 @@ Result<void> run(Wishes wishes) {
 
 int main(int argc, char** argv) {
   using dance::EngineKind;
-  using dance::PoseModel;
+  using dance::PoseNetworkModel;
   dance::Wishes wishes;
   dance::EstimatorOptions& estimator = wishes.eval.estimator;
   dance::CommandLine line(
@@ -108,10 +108,11 @@ int main(int argc, char** argv) {
   line.add("IMAGE_OR_VIDEO", wishes.files,
            "pictures, each for itself, and videos, whose frames follow each other")
       .required();
-  line.add_choice<PoseModel>(
-      "--model", estimator.model,
-      {{"lite", PoseModel::kLite}, {"full", PoseModel::kFull}, {"heavy", PoseModel::kHeavy}},
-      "the network (default full)");
+  line.add_choice<PoseNetworkModel>("--model", estimator.model,
+                                    {{"lite", PoseNetworkModel::kLite},
+                                     {"full", PoseNetworkModel::kFull},
+                                     {"heavy", PoseNetworkModel::kHeavy}},
+                                    "the network (default full)");
   line.add_choice<EngineKind>("--engine", estimator.engine,
                               {{"xnnpack", EngineKind::kXnnpack}, {"opencv", EngineKind::kOpenCv}},
                               "what it runs on (default: xnnpack where it is built in)");

@@ -55,7 +55,7 @@ nlohmann::json person_json(const CapturedPerson& person) {
           {"face", person.face.found ? face_json(person.face) : nlohmann::json()}};
 }
 
-nlohmann::json frame_json(const CaptureFrame& frame) {
+nlohmann::json frame_json(const EvaluatedFrame& frame) {
   nlohmann::json json;
   if (frame.people.size() == 1) {
     json = person_json(frame.people[0]);
@@ -71,7 +71,7 @@ nlohmann::json frame_json(const CaptureFrame& frame) {
 template <class Count>
 std::size_t total(const CaptureRun& run, const Count& count) {
   std::size_t sum = 0;
-  for (const CaptureFrame& frame : run.frames)
+  for (const EvaluatedFrame& frame : run.frames)
     for (const CapturedPerson& person : frame.people)
       sum += static_cast<std::size_t>(count(person));
   return sum;
@@ -87,7 +87,7 @@ void print_several(const CaptureRun& run, std::size_t people,
   fmt::format_to(out, "{:>7} frames", frames);
   for (std::size_t i = 0; i < people; ++i) {
     std::size_t found = 0;
-    for (const CaptureFrame& frame : run.frames) found += frame.people[i].body.found ? 1 : 0;
+    for (const EvaluatedFrame& frame : run.frames) found += frame.people[i].body.found ? 1 : 0;
     fmt::format_to(out, ", {} with dancer {} ({:.1f} %)", found, i + 1,
                    100.0 * per(static_cast<double>(found), frames));
   }
@@ -102,7 +102,7 @@ void print_several(const CaptureRun& run, std::size_t people,
 
 std::string capture_eval_json(const CaptureRun& run) {
   nlohmann::json frames = nlohmann::json::array();
-  for (const CaptureFrame& frame : run.frames) frames.push_back(frame_json(frame));
+  for (const EvaluatedFrame& frame : run.frames) frames.push_back(frame_json(frame));
   nlohmann::json out{{"frames", std::move(frames)},
                      {"ms_per_frame", rounded(per(run.ms, run.frames.size()), 1e3)}};
   if (run.engines.regions > 0)

@@ -26,7 +26,7 @@ struct Errors {
   std::size_t count = 0;
   void add(const BodyLattice& lattice, const Pose& given, const Pose& got) {
     // As a receiver sees it: floats, through the same kinematics.
-    BodyState seen;
+    LatticeBodyState seen;
     const TrueBody body = true_body(lattice, got);
     seen.joint = body.joint;
     seen.global = body.global;

@@ -50,7 +50,7 @@ void walk(const PoseModel& model, const std::vector<TakeLattice>& takes,
       for (std::size_t r = 0; r < which.run; ++r) references[r] = &states[i - which.age - r];
       BodyPredictor predictor(lattice, model, kLevel, which.slow != 0, which.age,
                               {references.data(), which.run});
-      BodyState body{states[i]};
+      LatticeBodyState body{states[i]};
       for (std::size_t c = 0; c < kCoordinateCount; ++c) {
         if (c >= 3 && c % 3 == 0) lattice.seat_bone(c / 3 - 1, body);
         predictor.predict(c, body);

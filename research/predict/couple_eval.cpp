@@ -23,7 +23,7 @@ constexpr std::array<Bone, 4> kArmJoints{Bone::kLeftLowerArm, Bone::kLeftHand, B
 const GuestId kHere = *GuestId::parse("here");
 
 struct Sums {
-  CoupleErrors sum;
+  CouplePredictionErrors sum;
   std::vector<float> held_m;
   std::size_t moments = 0, palms = 0;
 };
@@ -200,7 +200,7 @@ CoupleEval evaluate_couples(const std::vector<CoupleTake>& given,
                         static_cast<double>(std::max<std::size_t>(1, sums[h][0].palms)));
     for (std::size_t b = 0; b < kBesides; ++b) {
       Sums& s = sums[h][b];
-      CoupleErrors& e = eval.errors[h][b];
+      CouplePredictionErrors& e = eval.errors[h][b];
       e = s.sum;
       e.body_m /= moments;
       e.arms_m /= moments;

@@ -31,7 +31,7 @@ struct CoupleEvalOptions {
   bool keeps_palms = false;  // what the partner's palms said at each judged moment
 };
 
-struct CoupleErrors {
+struct CouplePredictionErrors {
   double body_m = 0.0;   // joints, the hips' place and rotation removed
   double arms_m = 0.0;   // of these, elbows and hands
   double world_m = 0.0;  // palms in W
@@ -43,7 +43,7 @@ struct CoupleErrors {
 struct CoupleEval {
   std::size_t moments = 0;
   // By horizon.
-  std::vector<std::array<CoupleErrors, kBesides>> errors;
+  std::vector<std::array<CouplePredictionErrors, kBesides>> errors;
   std::vector<double> best_dead_reckoning_m;  // the same as body_m of the best plain forecast
   std::vector<double> held;                   // of the palms, the part that is in a hold
   std::array<double, kBesides> coupled{};     // of the time a partner was found

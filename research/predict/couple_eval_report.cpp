@@ -12,15 +12,15 @@ namespace {
 struct Measure {
   const char* name;
   const char* key;
-  double CoupleErrors::*value;
+  double CouplePredictionErrors::*value;
 };
 constexpr std::array<Measure, 6> kMeasures{{
-    {"body, mm", "mpjpe_mm", &CoupleErrors::body_m},
-    {"elbows and hands, mm", "arms_mm", &CoupleErrors::arms_m},
-    {"palms in the room, mm", "palms_world_mm", &CoupleErrors::world_m},
-    {"palms in a hold, mm", "held_mm", &CoupleErrors::hold_m},
-    {"the same, p95, mm", "held_p95_mm", &CoupleErrors::hold_p95_m},
-    {"palms' way a picture, mm", "palm_step_mm", &CoupleErrors::step_m},
+    {"body, mm", "mpjpe_mm", &CouplePredictionErrors::body_m},
+    {"elbows and hands, mm", "arms_mm", &CouplePredictionErrors::arms_m},
+    {"palms in the room, mm", "palms_world_mm", &CouplePredictionErrors::world_m},
+    {"palms in a hold, mm", "held_mm", &CouplePredictionErrors::hold_m},
+    {"the same, p95, mm", "held_p95_mm", &CouplePredictionErrors::hold_p95_m},
+    {"palms' way a picture, mm", "palm_step_mm", &CouplePredictionErrors::step_m},
 }};
 
 template <class Value>
@@ -47,18 +47,19 @@ std::string couple_eval_table(const CoupleEval& eval, const CoupleEvalOptions& o
     for (std::size_t b = 0; b < kBesides; ++b)
       out += row(fmt::format("{:<25} {}", b == 0 ? measure.name : "", kBesideNames[b]), count, 1,
                  [&](std::size_t h) { return 1e3 * eval.errors[h][b].*measure.value; });
-  const auto of_alone = [&](const char* name, double CoupleErrors::*value, std::size_t b) {
+  const auto of_alone = [&](const char* name, double CouplePredictionErrors::*value,
+                            std::size_t b) {
     return row(name, count, 3, [&](std::size_t h) {
       return share_of(eval.errors[h][b].*value, eval.errors[h][0].*value);
     });
   };
   out += "\n";
-  out += of_alone("partner of alone: body", &CoupleErrors::body_m, 1);
-  out += of_alone("  elbows and hands", &CoupleErrors::arms_m, 1);
-  out += of_alone("  palms in the room", &CoupleErrors::world_m, 1);
-  out += of_alone("  palms in a hold", &CoupleErrors::hold_m, 1);
-  out += of_alone("stranger of alone: body", &CoupleErrors::body_m, 2);
-  out += of_alone("  palms in the room", &CoupleErrors::world_m, 2);
+  out += of_alone("partner of alone: body", &CouplePredictionErrors::body_m, 1);
+  out += of_alone("  elbows and hands", &CouplePredictionErrors::arms_m, 1);
+  out += of_alone("  palms in the room", &CouplePredictionErrors::world_m, 1);
+  out += of_alone("  palms in a hold", &CouplePredictionErrors::hold_m, 1);
+  out += of_alone("stranger of alone: body", &CouplePredictionErrors::body_m, 2);
+  out += of_alone("  palms in the room", &CouplePredictionErrors::world_m, 2);
   out += row("partner of the best dead reckoning", count, 3, [&](std::size_t h) {
     return share_of(eval.errors[h][1].body_m, eval.best_dead_reckoning_m[h]);
   });

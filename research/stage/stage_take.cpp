@@ -8,7 +8,7 @@
 #include "formats/avatar/avatar_reader.h"
 #include "formats/avatar/mannequin_model.h"
 #include "formats/clip/dancers_file.h"
-#include "formats/clip/file_kind.h"
+#include "formats/kind/file_kind.h"
 #include "formats/recording/clips_together.h"
 #include "formats/recording/log_source.h"
 

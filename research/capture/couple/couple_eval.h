@@ -40,7 +40,7 @@ struct CoupleScore {
 };
 
 struct CoupleWishes {
-  PoseModel model = PoseModel::kFull;
+  PoseNetworkModel model = PoseNetworkModel::kFull;
   std::size_t first_frame = 0, most_frames = 1'000'000;
   bool has_baseline = true;  // of two estimators
   std::string log;           // a line for each picture with something to tell; "" none

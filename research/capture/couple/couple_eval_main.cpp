@@ -33,7 +33,7 @@ struct CoupleEvalWishes {
   double from_s = 0.0, seconds = 0.0;
   double distance_m = 4.2;
   std::string pictures, log;
-  PoseModel model = PoseModel::kFull;
+  PoseNetworkModel model = PoseNetworkModel::kFull;
   bool is_json = false;
   bool is_quick = false;
 };
@@ -153,11 +153,11 @@ int main(int argc, char** argv) {
       .shows_default();
   line.add("--pictures", wishes.pictures, "a folder that keeps the pictures for the next run");
   line.add("--log", wishes.log, "a file that gets a line for each picture");
-  line.add_choice<dance::PoseModel>("--model", wishes.model,
-                                    {{"lite", dance::PoseModel::kLite},
-                                     {"full", dance::PoseModel::kFull},
-                                     {"heavy", dance::PoseModel::kHeavy}},
-                                    "size of the pose network");
+  line.add_choice<dance::PoseNetworkModel>("--model", wishes.model,
+                                           {{"lite", dance::PoseNetworkModel::kLite},
+                                            {"full", dance::PoseNetworkModel::kFull},
+                                            {"heavy", dance::PoseNetworkModel::kHeavy}},
+                                           "size of the pose network");
   line.add_flag("--quick", wishes.is_quick, "without the baseline of two programs");
   line.add_flag("--json", wishes.is_json, "one JSON object on stdout");
   line.footer(dance::kCoupleExamples);

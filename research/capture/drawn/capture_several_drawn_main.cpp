@@ -57,11 +57,11 @@ int main(int argc, char** argv) {
   line.add("--guest", wishes.guest, "whose looks the dancer has").guest_name().shows_default();
   line.add("--keep", wishes.folder,
            "keeps the pictures in this folder; those that are there are not drawn again");
-  line.add_choice<dance::PoseModel>("--model", wishes.model,
-                                    {{"lite", dance::PoseModel::kLite},
-                                     {"full", dance::PoseModel::kFull},
-                                     {"heavy", dance::PoseModel::kHeavy}},
-                                    "size of the pose network");
+  line.add_choice<dance::PoseNetworkModel>("--model", wishes.model,
+                                           {{"lite", dance::PoseNetworkModel::kLite},
+                                            {"full", dance::PoseNetworkModel::kFull},
+                                            {"heavy", dance::PoseNetworkModel::kHeavy}},
+                                           "size of the pose network");
   line.add_flag("--json", is_json, "JSON on stdout");
   line.footer(dance::kSeveralDrawnExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::run(wishes, is_json); });

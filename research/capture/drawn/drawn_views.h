@@ -25,7 +25,7 @@ struct DrawnWishes {
   double around_deg = 60.0;
   double later_ms = 23.0;
   std::string guest = "alice";  // whose looks the dancer has
-  PoseModel model = PoseModel::kFull;
+  PoseNetworkModel model = PoseNetworkModel::kFull;
 };
 
 // `seen` of 100 pictures had the dancer found in them, of both cameras.

@@ -1,5 +1,5 @@
-// StageEye: an engine's side of the benchmark: reads all dancers of a house through the C functions
-// that an engine calls.
+// AdapterReader: an engine's side of the benchmark: reads all dancers of a house through the C
+// functions that an engine calls.
 //
 // Units/frames: as dance_adapter.h.
 // Ownership:    owns the handle.
@@ -15,13 +15,13 @@
 
 namespace dance {
 
-class StageEye {
+class AdapterReader {
  public:
-  explicit StageEye(const std::string& name)
+  explicit AdapterReader(const std::string& name)
       : adapter_(dance_adapter_open(name.c_str(), DANCE_AXES_GLTF)) {}
-  ~StageEye() { dance_adapter_close(adapter_); }
-  StageEye(const StageEye&) = delete;
-  StageEye& operator=(const StageEye&) = delete;
+  ~AdapterReader() { dance_adapter_close(adapter_); }
+  AdapterReader(const AdapterReader&) = delete;
+  AdapterReader& operator=(const AdapterReader&) = delete;
 
   // Whether that many dancers are there.
   bool see(std::size_t wanted) {
