@@ -44,6 +44,14 @@ inline std::string text_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+// Whether the file or folder is there and only its owner can read, write or enter it.
+inline bool is_private(const std::string& path) {
+  using std::filesystem::perms;
+  std::error_code missing;
+  const perms mode = std::filesystem::status(path, missing).permissions();
+  return !missing && (mode & (perms::group_all | perms::others_all)) == perms::none;
+}
+
 inline std::vector<std::uint8_t> bytes_in(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};

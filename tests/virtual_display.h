@@ -1,18 +1,16 @@
 // An X server without a screen, for tests of windows: ends with the test.
 //
-// Ownership: owns the server's process.
-// Threads:   one; begin it before others.
 // Failure:   display() is empty where there is no Xvfb: skip, with kNoVirtualDisplay.
 #pragma once
 
 #include <poll.h>
-#include <signal.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
+#include <optional>
 #include <string>
-#include <vector>
+
+#include "core/program/child_process.h"
 
 namespace dance {
 
@@ -24,40 +22,37 @@ class VirtualDisplay {
   explicit VirtualDisplay(const std::string& screen_folder = "",
                           const std::string& screen = "800x600x24") {
     std::array<int, 2> ends{};
-    if (pipe(ends.data()) != 0) return;
-    const std::string fd = std::to_string(ends[1]);
-    std::vector<const char*> words{"Xvfb",       "-displayfd",   fd.c_str(),  "-screen",
-                                   "0",          screen.c_str(), "-nolisten", "tcp",
-                                   "+extension", "GLX",          "-noreset"};
-    if (!screen_folder.empty()) words.insert(words.end(), {"-fbdir", screen_folder.c_str()});
-    words.push_back(nullptr);
-    pid_ = fork();
-    if (pid_ == 0) {
-      close(ends[0]);
-      execvp("Xvfb", const_cast<char* const*>(words.data()));
-      _exit(127);
-    }
-    close(ends[1]);
+    if (::pipe(ends.data()) != 0) return;
+    ChildProcess::Options server;
+    server.program = "Xvfb";
+    server.arguments = {"-displayfd", std::to_string(ends[1]),
+                        "-screen",    "0",
+                        screen,       "-nolisten",
+                        "tcp",        "+extension",
+                        "GLX",        "-noreset"};
+    if (!screen_folder.empty())
+      server.arguments.insert(server.arguments.end(), {"-fbdir", screen_folder});
+    if (auto started = ChildProcess::start(server)) server_.emplace(std::move(*started));
+    ::close(ends[1]);
     // The number and its end of line come in two writes.
     std::string number;
     pollfd readable{ends[0], POLLIN, 0};
-    for (char c = 0; c != '\n' && poll(&readable, 1, 20'000) == 1;) {
-      if (read(ends[0], &c, 1) != 1) break;
+    for (char c = 0; c != '\n' && ::poll(&readable, 1, 20'000) == 1;) {
+      if (::read(ends[0], &c, 1) != 1) break;
       if (c == '\n')
         display_ = ":" + number;
       else
         number += c;
     }
-    close(ends[0]);
+    ::close(ends[0]);
   }
   ~VirtualDisplay() {
-    if (pid_ <= 0) return;
-    // It looks at what a signal asked for before it waits, for minutes: one that comes in between
-    // is not seen until the next.
+    // Xvfb handles a signal only before it waits, for minutes: one that arrives in between is seen
+    // at the next.
     constexpr int kAsks = 100;
-    for (int i = 0; waitpid(pid_, nullptr, WNOHANG) == 0; ++i) {
-      kill(pid_, i < kAsks ? SIGTERM : SIGKILL);
-      poll(nullptr, 0, 50);
+    for (int i = 0; server_ && i < kAsks; ++i) {
+      server_->ask_to_stop();
+      if (server_->wait(Duration::ms(50))) return;
     }
   }
   VirtualDisplay(const VirtualDisplay&) = delete;
@@ -66,7 +61,7 @@ class VirtualDisplay {
   const std::string& display() const { return display_; }
 
  private:
-  pid_t pid_ = -1;
+  std::optional<ChildProcess> server_;
   std::string display_;
 };
 

@@ -15,7 +15,7 @@ constexpr std::size_t kNoClient = SIZE_MAX;
 
 Result<std::unique_ptr<LossyProxy>> LossyProxy::open(const Address& listen, const Address& target,
                                                      LossyLine line, Poller& poller) {
-  DANCE_TRY(UdpSocket socket, UdpSocket::bind(listen));
+  DANCE_TRY(UdpSocket socket, UdpSocket::serve(listen));
   return std::unique_ptr<LossyProxy>(
       new LossyProxy(std::move(socket), target, std::move(line), poller));
 }

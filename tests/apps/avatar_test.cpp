@@ -19,6 +19,7 @@ TEST(AvatarProgram, MakesAFileAndSaysWhatIsInIt) {
   const Finished make =
       run(avatar("make --look teo --name me --height 1.92 --hair bun --out " + file));
   ASSERT_EQ(make.exit_code, 0) << make.talk;
+  EXPECT_TRUE(is_private(file));
   EXPECT_NE(make.output.find("triangles"), std::string::npos) << make.output;
   const Finished info = run(avatar("info --json " + file));
   ASSERT_EQ(info.exit_code, 0) << info.talk;

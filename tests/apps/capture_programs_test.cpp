@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/pose/skeleton.h"
+#include "core/program/child_process.h"
 #include "tests/apps/bus_programs.h"
 #include "tests/producers/camera/files/written_pictures.h"
 
@@ -227,6 +228,8 @@ TEST_F(CapturePrograms, KeepVideoBesidePoses) {
     capture.ask_to_stop();
     ASSERT_TRUE(wait_for([&] { return capture.has_ended(); }));
   }
+  for (const char* part : {"", "/video.mkv", "/poses.lcm"})
+    EXPECT_TRUE(is_private(folder + part)) << part;
   VideoPictures video(folder + "/video.mkv");
   ASSERT_TRUE(video.is_open());
   int pictures = 0;
@@ -265,8 +268,7 @@ TEST_F(CapturePrograms, AreStartedByTheHouseAndAgainWhenTheyDie) {
   ChildProcess& house = start("dance-join", {folder_.path("house.toml"), "--no-view"});
   ASSERT_TRUE(wait_for([&] { return stage.has_more_than(5); })) << talk();
   const pid_t capture = child_of(house.pid(), "dance-capture");
-  ASSERT_GT(capture, 0);
-  kill(capture, SIGKILL);
+  ASSERT_TRUE(send_signal(capture, SIGKILL));
   ASSERT_TRUE(wait_for([&] { return talk().find("it is started again") != std::string::npos; }))
       << talk();
   stage.work();

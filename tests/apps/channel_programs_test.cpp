@@ -7,7 +7,7 @@
 namespace dance {
 namespace {
 
-constexpr const char* kThirdBus = "udpm://239.255.76.67:7744?ttl=0";
+constexpr const char* kCarolsBus = "udpm://239.255.76.67:7744?ttl=0";
 constexpr const char* kArmRule =
     "class=newest size=300 rate=100 "
     "layout=utime:i64,joints:i32,f64[joints],rows:i8,columns:i16,f32[rows][columns],string,"
@@ -75,13 +75,13 @@ class ChannelPrograms : public BusPrograms {
     const auto rule = [](const char* name, std::string_view words) {
       return std::string(name) + " " + std::string(words);
     };
-    auto child =
-        ChildProcess::start({bin("dance-link"),
-                             {"--server", "127.0.0.1:7455", "--guest", guest, "--bus", bus,
-                              "--json", "--channel", rule("ROBOT/*", kArmRule), "--channel",
-                              "LIGHT/desk class=state rate=10 layout=n:i32,f32[n]"},
-                             report,
-                             folder_.path("talk")});
+    auto child = ChildProcess::start(
+        {bin("dance-link"),
+         {"--server", "127.0.0.1:7455", "--guest", guest, "--bus", bus, "--bus-captures", guest,
+          "--json", "--channel", rule("ROBOT/*", kArmRule), "--channel",
+          "LIGHT/desk class=state rate=10 layout=n:i32,f32[n]"},
+         report,
+         folder_.path("talk")});
     ASSERT_TRUE(child) << child.error().what;
     children_.push_back(std::move(*child));
   }
@@ -131,8 +131,8 @@ TEST_F(ChannelPrograms, CarryAnArmALightAndTheMusicToTheOtherHouse) {
   EXPECT_NEAR(b.music().second.beats_at(now), music.beats_at(now), 0.5);
 
   // Nothing is published any more; a house that comes now gets it all the same.
-  Ear c(kThirdBus);
-  start_link(kThirdBus, "carol", folder_.path("carol.json"));
+  Ear c(kCarolsBus);
+  start_link(kCarolsBus, "carol", folder_.path("carol.json"));
   EXPECT_TRUE(wait_for([&] {
     return c.hears("LIGHT/desk/guest/alice") && c.hears("MUSIC/room/alice");
   })) << text_of(folder_.path("talk"));

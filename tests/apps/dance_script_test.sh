@@ -17,7 +17,9 @@ fake() { # NAME: a program whose text comes on stdin
   chmod +x "$bin/$1"
 }
 fake dpkg-query <<'END'
-grep -qx "${@: -1}" "$scratch/installed" && printf installed
+while read -r package; do
+  case " $* " in *" $package "*) echo "$package installed" ;; esac
+done <"$scratch/installed"
 END
 fake id <<'END'
 [ -e "$scratch/is_no_root" ] && echo 1000 || echo 0
@@ -182,7 +184,15 @@ case="everything"
 dance setup
 expect_code 0
 expect_call "ninja all"
+expect_no_call "libbenchmark-dev"
 touch "$tree/build/release/bin/all"
+dance setup --everything
+expect_code 2
+expect_said "setup takes --all or nothing"
+dance setup --all
+expect_code 0
+expect_call "libbenchmark-dev"
+expect_call "ninja all everything"
 
 case="a tree that was configured before there was a list of commands"
 rm "$tree/build/release/share/dancegraph/commands.txt"
@@ -314,27 +324,39 @@ begin "tests"
 dance test -L unit
 expect_code 0
 expect_call "libgtest-dev"
-expect_call "fetch"
+expect_no_call "libbenchmark-dev"
+expect_no_call "blender"
+expect_no_call "fetch" # npm is missing, and would bring hundreds of packages
 expect_call "run.sh -L unit"
-expect_client_log "are skipped"
-begin "tests, and programs of others that cannot be had"
-echo blender >"$scratch/apt_lacks"
-dance test
+begin "tests that take long"
+dance test --long -L unit
 expect_code 0
-expect_call "run.sh"
+expect_call "libbenchmark-dev"
+expect_call "fetch"
+expect_call "run.sh --long -L unit"
+expect_client_log "are skipped"
+begin "all tests, and programs of others that cannot be had"
+echo blender >"$scratch/apt_lacks"
+dance test --all
+expect_code 0
+expect_call "run.sh --all"
 expect_client_log "without them the tests with programs of others are skipped"
-begin "tests on a machine with an npm that is not Debian's"
+begin "all tests on a machine with an npm that is not Debian's"
 fake npm </dev/null
 fake_client_fetch
-dance test
+dance test --all
 expect_client_log "clients fetched"
 expect_call "blender"
 ! grep -qx npm "$scratch/installed" || wrong "installs Debian's npm"
+begin "tests on a machine with npm"
+dance test
+expect_call "fetch"
+expect_no_call "blender"
 rm "$bin/npm"
 
-begin "tests without the networks"
+begin "all tests without the networks"
 touch "$scratch/fetch_fails"
-dance test
+dance test --all
 expect_code 0
 expect_said "are skipped"
 expect_call "run.sh"

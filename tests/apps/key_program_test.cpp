@@ -10,45 +10,37 @@
 #include <cstdlib>
 #include <optional>
 
+#include "core/program/child_process.h"
 #include "tests/apps/run_program.h"
-#include "tunnel/seal/preshared_key.h"
+#include "tunnel/seal/keys/identity_key.h"
 
 namespace dance {
 namespace {
 
 class KeyAtATerminal : public ::testing::Test {
  protected:
+  void SetUp() override {
+    if (::openpty(&user_, &terminal_, nullptr, nullptr, nullptr) != 0)
+      GTEST_SKIP() << "no pseudo-terminal can be had here; is /dev/pts mounted?";
+    // The program gets the terminal as its own, and neither end as a further descriptor.
+    for (const int fd : {user_, terminal_}) ::fcntl(fd, F_SETFD, FD_CLOEXEC);
+  }
   void TearDown() override {
-    if (child_ > 0) {
-      ::kill(child_, SIGKILL);
-      ::waitpid(child_, nullptr, 0);
-    }
+    child_.reset();
     if (user_ >= 0) ::close(user_);
     if (terminal_ >= 0) ::close(terminal_);
   }
 
-  // Starts the program and waits until it does not show what is typed.
-  void start_unseen(bool ignores_hangup = false) {
-    // The terminal outlives the program, as its shell would hold it.
-    std::array<char, 128> name{};
-    const std::string program = bin("dance-key"), file = folder_.path("keys");
-    child_ = ::forkpty(&user_, name.data(), nullptr, nullptr);
-    ASSERT_GE(child_, 0);
-    if (child_ == 0) {
-      if (ignores_hangup) ::signal(SIGHUP, SIG_IGN);
-      // Until the parent has seen the terminal as it is before.
-      ::raise(SIGSTOP);
-      ::execl(program.c_str(), program.c_str(), "--file", file.c_str(), nullptr);
-      ::_exit(127);
-    }
-    int status = 0;
-    ASSERT_EQ(::waitpid(child_, &status, WUNTRACED), child_);
-    ASSERT_TRUE(WIFSTOPPED(status));
-    terminal_ = ::open(name.data(), O_RDWR | O_NOCTTY | O_CLOEXEC);
-    ASSERT_GE(terminal_, 0);
+  // Starts the program and waits until it does not show what is typed. The terminal outlives the
+  // program, as its shell would hold it.
+  void start_unseen() {
     before_ = modes();
     ASSERT_TRUE(shows());
-    ASSERT_EQ(::kill(child_, SIGCONT), 0);
+    auto child = ChildProcess::start({.program = bin("dance-key"),
+                                      .arguments = {"--file", folder_.path("keys")},
+                                      .terminal_fd = terminal_});
+    ASSERT_TRUE(child) << child.error().what;
+    child_ = std::move(*child);
     ASSERT_TRUE(wait_for([&] { return !shows(); })) << heard_;
   }
 
@@ -82,34 +74,25 @@ class KeyAtATerminal : public ::testing::Test {
       return heard_.find(word) != std::string::npos;
     });
   }
-  // How it ended, once it has; nullopt if it never does.
-  std::optional<int> end_status() {
-    int status = 0;
-    if (!wait_for([&] { return ::waitpid(child_, &status, WNOHANG) == child_; }))
-      return std::nullopt;
-    child_ = -1;
-    return status;
-  }
   void expect_end(int exit_code) {
-    const auto status = end_status();
-    ASSERT_TRUE(status) << "it goes on";
-    EXPECT_TRUE(WIFEXITED(*status)) << *status;
-    EXPECT_EQ(WEXITSTATUS(*status), exit_code);
+    ASSERT_TRUE(child_->wait(Duration::s(60))) << "it goes on";
+    EXPECT_EQ(child_->exit_code(), exit_code) << child_->exit_text();
   }
 
   TestFolder folder_{"key-program"};
-  pid_t child_ = -1;
+  std::optional<ChildProcess> child_;
   int user_ = -1;      // who types and reads
   int terminal_ = -1;  // the program's side
   termios before_{};
   std::string heard_;
-  const std::string secret_ = PresharedKey::make().text();
+  const std::string secret_ = PrivateKey::make().text();
+  const std::string keys_ = PrivateKey::make().public_key().text() + "." + secret_;
 };
 
 TEST_F(KeyAtATerminal, DoesNotShowTheLineAndKeepsIt) {
   start_unseen();
   ASSERT_TRUE(shows_word("not shown")) << heard_;
-  type("dance-key:alice@dance.example.org#" + secret_ + "\n");
+  type("dance-key:alice@dance.example.org#" + keys_ + "\n");
   expect_end(0);
   ASSERT_TRUE(shows_word("kept in")) << heard_;
   EXPECT_EQ(heard_.find(secret_), std::string::npos) << heard_;
@@ -128,15 +111,17 @@ TEST_F(KeyAtATerminal, CtrlCGivesTheTerminalBackAsItWas) {
 TEST_F(KeyAtATerminal, CtrlZDoesNotLeaveItHalfWay) {
   start_unseen();
   type("\x1a\x15");  // Ctrl-U: away with the line so far
-  type("dance-key:alice#" + secret_ + "\n");
+  type("dance-key:alice#" + keys_ + "\n");
   expect_end(0);
   expect_as_before();
 }
 
 TEST_F(KeyAtATerminal, AHangupThatIsIgnoredStaysIgnored) {
-  start_unseen(true);
-  ASSERT_EQ(::kill(child_, SIGHUP), 0);
-  type("dance-key:alice#" + secret_ + "\n");
+  ::signal(SIGHUP, SIG_IGN);
+  start_unseen();
+  ::signal(SIGHUP, SIG_DFL);
+  ASSERT_TRUE(child_ && child_->send_signal(SIGHUP));
+  type("dance-key:alice#" + keys_ + "\n");
   expect_end(0);
   expect_as_before();
 }
@@ -145,7 +130,7 @@ class KeyThatIsEnded : public KeyAtATerminal, public ::testing::WithParamInterfa
 
 TEST_P(KeyThatIsEnded, GivesTheTerminalBackAsItWas) {
   start_unseen();
-  ASSERT_EQ(::kill(child_, GetParam()), 0);
+  ASSERT_TRUE(child_ && child_->send_signal(GetParam()));
   expect_end(128 + GetParam());
   expect_as_before();
 }

@@ -48,6 +48,7 @@ TEST_F(BusPrograms, RecordWritesALogThatReplayPlaysLive) {
   const Finished record =
       run(bin("dance-record") + " -o " + log + " --seconds 2 --bus " + quoted(kBus));
   ASSERT_EQ(record.exit_code, 0) << record.talk;
+  EXPECT_TRUE(is_private(log));
   auto counts = count_log(log);
   EXPECT_GT(counts["POSE/stage/alice"], 5);
   EXPECT_GT(counts["POSE/capture/bob"], 5);
@@ -102,6 +103,7 @@ TEST_F(BusPrograms, RecordPackedHoldsThatVeryDanceInFewerBytesAndReplays) {
 
   const Finished unpack = run(bin("dance-unpack") + " " + packed + " -o " + again);
   ASSERT_EQ(unpack.exit_code, 0) << unpack.talk;
+  for (const std::string& file : {plain, packed, again}) EXPECT_TRUE(is_private(file)) << file;
   // By how much depends on the poses a second that this machine manages; packed_log_test knows a
   // fixed dance's.
   EXPECT_LT(size_of(packed), size_of(again));
@@ -120,6 +122,28 @@ TEST_F(BusPrograms, RecordPackedHoldsThatVeryDanceInFewerBytesAndReplays) {
 
   start("dance-replay", {packed, "--bus", kOtherBus});
   expect_couple_on_stage(kOtherBus);
+}
+
+TEST_F(BusPrograms, ReplayPlaysRecordingsOfOtherKindsAsTheyAre) {
+  for (const std::string end : {"mcap", "csv"}) {
+    const std::string file = folder_.path("couple." + end), log = folder_.path(end + ".lcm");
+    const Finished converted =
+        run(bin("dance-convert") + " " DANCE_SOURCE_DIR "/logs/couple-packed.lcm " + file);
+    ASSERT_EQ(converted.exit_code, 0) << converted.talk;
+    start("dance-replay", {file, "--bus", kOtherBus});
+    int poses = 0;
+    const std::string record_anew = "rm -f " + log + " && " + bin("dance-record") + " -o " + log +
+                                    " --seconds 1 --bus " + quoted(kOtherBus);
+    const Finished record = run_until(record_anew, [&](const Finished& it) {
+      poses = 0;
+      if (it.exit_code != 0) return false;
+      for (const auto& [channel, count] : count_log(log))
+        if (channel.starts_with("POSE/") && channel.ends_with("/alice")) poses += count;
+      return poses > 5;
+    });
+    EXPECT_GT(poses, 5) << end << ": " << record.talk;
+    end_all();
+  }
 }
 
 TEST_F(BusPrograms, RecordSaysThatItHeardNothing) {

@@ -39,7 +39,8 @@ std::unique_ptr<Bus> bus_of(const char* url) {
 class MusicalTime : public BusPrograms {
  protected:
   void start_link(const char* bus, const std::string& guest) {
-    start("dance-link", {"--server", "127.0.0.1:7456", "--guest", guest, "--bus", bus});
+    start("dance-link",
+          {"--server", "127.0.0.1:7456", "--guest", guest, "--bus", bus, "--bus-captures", guest});
   }
   std::string talk() { return text_of(folder_.path("talk")); }
 

@@ -20,14 +20,14 @@ namespace fs = std::filesystem;
 class RecorderTest : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return folder_.path(name); }
-  static ChannelFilter filter(const std::vector<std::string>& patterns) {
-    return *ChannelFilter::make(patterns);
+  static RecordFilter filter(const std::vector<std::string>& patterns) {
+    return *RecordFilter::make(patterns);
   }
   TestFolder folder_{"record"};
 };
 
-TEST(ChannelFilter, PatternsMatchWholeNames) {
-  auto filter = ChannelFilter::make({"POSE/.*", "STATS/link"});
+TEST(RecordFilter, PatternsMatchWholeNames) {
+  auto filter = RecordFilter::make({"POSE/.*", "STATS/link"});
   ASSERT_TRUE(filter);
   for (int pass = 0; pass < 2; ++pass) {  // the second from memory
     EXPECT_TRUE(filter->wants("POSE/stage/bob"));
@@ -38,10 +38,10 @@ TEST(ChannelFilter, PatternsMatchWholeNames) {
   }
 }
 
-TEST(ChannelFilter, NoPatternsWantAll) { EXPECT_TRUE(ChannelFilter::make({})->wants("x")); }
+TEST(RecordFilter, NoPatternsWantAll) { EXPECT_TRUE(RecordFilter::make({})->wants("x")); }
 
-TEST(ChannelFilter, ABrokenPatternIsNamed) {
-  const auto filter = ChannelFilter::make({"POSE/(.*"});
+TEST(RecordFilter, ABrokenPatternIsNamed) {
+  const auto filter = RecordFilter::make({"POSE/(.*"});
   ASSERT_FALSE(filter);
   EXPECT_NE(filter.error().what.find("POSE/(.*"), std::string::npos);
 }

@@ -34,23 +34,23 @@ void expect_couple_in_music(const char* url) {
       << " poses of alice, " << poses["bob"] << " of bob, " << beats << " beats";
 }
 
-class ShippedLogs : public BusPrograms {};
+class ShippedLogPrograms : public BusPrograms {};
 
-TEST_F(ShippedLogs, ReplayPlaysBothForms) {
+TEST_F(ShippedLogPrograms, ReplayPlaysBothForms) {
   start("dance-replay", {kPlain, "--bus", kBus});
   start("dance-replay", {kPacked, "--bus", kOtherBus});
   expect_couple_in_music(kBus);
   expect_couple_in_music(kOtherBus);
 }
 
-TEST_F(ShippedLogs, LcmsOwnPlayerPlaysThePlainOne) {
+TEST_F(ShippedLogPrograms, LcmsOwnPlayerPlaysThePlainOne) {
   if (run("command -v lcm-logplayer").exit_code != 0)
     GTEST_SKIP() << "lcm-logplayer is not installed";
   play_over_and_over(kPlain, kBus);
   expect_couple_in_music(kBus);
 }
 
-TEST_F(ShippedLogs, ViewerDrawsThem) {
+TEST_F(ShippedLogPrograms, ViewerDrawsThem) {
   if (!std::filesystem::exists(bin("dance-view"))) GTEST_SKIP() << "built without the viewer";
   for (const std::string& log : {kPlain, kPacked}) {
     const Finished view = run("ASAN_OPTIONS=detect_leaks=0 " + bin("dance-view") +
@@ -62,7 +62,7 @@ TEST_F(ShippedLogs, ViewerDrawsThem) {
   }
 }
 
-TEST_F(ShippedLogs, ViewerPlaysThemInAWindowOverAndOver) {
+TEST_F(ShippedLogPrograms, ViewerPlaysThemInAWindowOverAndOver) {
   if (!std::filesystem::exists(bin("dance-view"))) GTEST_SKIP() << "built without the viewer";
   const VirtualDisplay display(folder_.path());
   if (display.display().empty()) GTEST_SKIP() << kNoVirtualDisplay;
@@ -81,7 +81,7 @@ TEST_F(ShippedLogs, ViewerPlaysThemInAWindowOverAndOver) {
   EXPECT_FALSE(view.has_ended()) << text_of(folder_.path("talk"));
 }
 
-TEST_F(ShippedLogs, GitTracksThemAndNoOtherRecording) {
+TEST_F(ShippedLogPrograms, GitTracksThemAndNoOtherRecording) {
   if (run("git -C " DANCE_SOURCE_DIR " rev-parse").exit_code != 0)
     GTEST_SKIP() << "the tree is no clone";
   const auto ignores = [](const std::string& name) {

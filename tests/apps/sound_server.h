@@ -8,6 +8,7 @@
 // Failure:      is_there() is false where PulseAudio is not installed: skip.
 #pragma once
 
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -57,6 +58,9 @@ class SoundServer {
   SoundServer& operator=(const SoundServer&) = delete;
 
   bool is_open() const { return is_open_; }
+  // It hangs: the kernel accepts connections for it, and it answers nothing.
+  void suspend() { child_->send_signal(SIGSTOP); }
+  void resume() { child_->send_signal(SIGCONT); }
 
   // From now on clicks are listened for.
   bool listen() {

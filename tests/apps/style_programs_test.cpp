@@ -7,7 +7,7 @@
 namespace dance {
 namespace {
 
-const GuestId kAlice = *GuestId::parse("alice");
+const GuestId kStyledGuest = *GuestId::parse("alice");
 
 class StylePrograms : public BusPrograms {
  protected:
@@ -20,7 +20,8 @@ TEST_F(StylePrograms, SaidInATerminalReachesTheStageOfTheOtherHouseAndTop) {
       << "[[route]]\nfrom = \"POSE/guest/*\"\nto = \"POSE/stage/*\"\n"
       << "through = [\"hold 20ms\", \"stylize mix=1\"]\n";
   start("dance-server", {"--port", "7457"});
-  start("dance-link", {"--server", "127.0.0.1:7457", "--guest", "alice", "--bus", kBus});
+  start("dance-link", {"--server", "127.0.0.1:7457", "--guest", "alice", "--bus", kBus,
+                       "--bus-captures", "alice"});
   start("dance-link", {"--server", "127.0.0.1:7457", "--guest", "bob", "--bus", kOtherBus});
   start("dance-manager", {folder_.path("house.toml")});
   auto a = Bus::open(kBus), b = Bus::open(kOtherBus);
@@ -42,10 +43,11 @@ TEST_F(StylePrograms, SaidInATerminalReachesTheStageOfTheOtherHouseAndTop) {
     }
     before = pose;
   };
-  (*b)->subscribe<Pose>({Where::kStage, kAlice}, [&](const Channel&, const Pose& pose, MonoTime) {
-    add(pose, shown_before, shown);
-    ++poses;
-  });
+  (*b)->subscribe<Pose>({Where::kStage, kStyledGuest},
+                        [&](const Channel&, const Pose& pose, MonoTime) {
+                          add(pose, shown_before, shown);
+                          ++poses;
+                        });
   const MonoTime begin = mono_now();
   std::uint32_t sequence = 0;
   const auto dance = [&] {
@@ -56,9 +58,9 @@ TEST_F(StylePrograms, SaidInATerminalReachesTheStageOfTheOtherHouseAndTop) {
     pose.clock_id = this_clock_id();
     pose.capture_time = now;
     add(pose, danced_before, danced);
-    (*a)->publish(Channel::of(Signal::kSkeleton, Where::kCapture, kAlice),
+    (*a)->publish(Channel::of(Signal::kSkeleton, Where::kCapture, kStyledGuest),
                   TimedSkeleton{dancer.skeleton(), now, this_clock_id()});
-    (*a)->publish(Channel::of(Signal::kPose, Where::kCapture, kAlice), pose);
+    (*a)->publish(Channel::of(Signal::kPose, Where::kCapture, kStyledGuest), pose);
     (*a)->drain(now);
     (*b)->drain(now);
   };

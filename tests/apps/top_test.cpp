@@ -34,6 +34,9 @@ TEST(TopTable, TellsEachTypeByItsFingerprint) {
   EXPECT_EQ(type_of(Stats()), "stats_t");
   EXPECT_EQ(type_of(StageTime()), "stage_time_t");
   EXPECT_EQ(type_of(Music()), "music_t");
+  EXPECT_EQ(type_of(RoomSong()), "song_t");
+  EXPECT_EQ(type_of(Chat()), "chat_t");
+  EXPECT_EQ(type_of(Profile()), "profile_t");
   EXPECT_EQ(type_of(Scene()), "scene_t");
   EXPECT_EQ(type_of(Avatar()), "avatar_t");
   EXPECT_EQ(type_of(AvatarFile()), "avatar_file_t");

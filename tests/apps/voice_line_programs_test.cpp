@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/bus/encode.h"
+#include "core/control/house_publisher.h"
 #include "formats/log/log_file.h"
 #include "tests/apps/bus_programs.h"
 
@@ -26,8 +27,8 @@ Voice voice_of_alice(std::uint32_t sequence, MonoTime now) {
 }
 
 // What is heard of alice on a bus.
-struct Ear {
-  explicit Ear(const char* url) {
+struct VoiceReceiver {
+  explicit VoiceReceiver(const char* url) {
     auto opened = Bus::open(url);
     EXPECT_TRUE(opened) << opened.error().what;
     bus = std::move(*opened);
@@ -77,16 +78,16 @@ class VoiceLinePrograms : public BusPrograms {
 
 TEST_F(VoiceLinePrograms, AVoiceIsHeardRecordedAndPlayedAgain) {
   start("dance-server", {"--port", "7456"});
-  start_link(kBus, "alice");
+  start_link(kBus, "alice", {"--bus-captures", "alice"});
   start_link(kOtherBus, "bob");
   start_link(kDeafBus, "carl", {"--hear", "alice=0"});
   const std::string log = folder_.path("talk.lcm"), plain = folder_.path("plain.lcm");
   ChildProcess& recorder =
       start("dance-record", {"--packed", "-o", log, "--bus", std::string(kOtherBus)});
-  Ear a(kBus), b(kOtherBus), deaf(kDeafBus);
+  VoiceReceiver a(kBus), b(kOtherBus), deaf(kDeafBus);
   EXPECT_TRUE(wait_for([&] {
     perform(*a.bus);
-    for (Ear* ear : {&a, &b, &deaf}) ear->bus->drain(mono_now());
+    for (VoiceReceiver* ear : {&a, &b, &deaf}) ear->bus->drain(mono_now());
     std::error_code none;
     return b.voices.size() >= 100 && deaf.poses >= 100 && std::filesystem::exists(log, none) &&
            std::filesystem::file_size(log, none) > 20'000;
@@ -101,7 +102,11 @@ TEST_F(VoiceLinePrograms, AVoiceIsHeardRecordedAndPlayedAgain) {
   }
   EXPECT_GT(b.newest_age, Duration::ms(11));
   EXPECT_LT(b.newest_age, Duration::s(5));
-  // bob's player mutes her, and wants her again.
+  // bob's player mutes her, and requests her again, over the house's socket.
+  const auto poller = Poller::create();
+  ASSERT_TRUE(poller);
+  HousePublisher player(*b.bus, kOtherBus, **poller);
+  ASSERT_EQ(player.houses().house_count(), 1u);
   const auto heard_while = [&](bool hears_others) {
     HearingWish wish;
     wish.clock_id = this_clock_id();
@@ -113,7 +118,7 @@ TEST_F(VoiceLinePrograms, AVoiceIsHeardRecordedAndPlayedAgain) {
       for (const bool is_bob : {true, false}) {
         wish.listener = *GuestId::parse(is_bob ? "bob" : "bea");
         wish.hears_others = is_bob && hears_others;
-        b.bus->publish(Channel::of_house(Signal::kHearing), wish);
+        player.publish(Channel::of_house(Signal::kHearing), wish);
       }
       perform(*a.bus);
       b.bus->drain(mono_now());
@@ -151,7 +156,7 @@ TEST_F(VoiceLinePrograms, AVoiceIsHeardRecordedAndPlayedAgain) {
       run(bin("dance-convert") + " " + log + " " + folder_.path("take.bvh") + " --guest alice");
   EXPECT_EQ(convert.exit_code, 0) << convert.talk;
 
-  Ear again(kDeafBus);
+  VoiceReceiver again(kDeafBus);
   start("dance-replay", {log, "--bus", std::string(kDeafBus)});
   EXPECT_TRUE(wait_for([&] {
     again.bus->drain(mono_now());

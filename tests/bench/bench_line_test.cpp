@@ -44,7 +44,7 @@ void expect_a_way(const nlohmann::json& way) {
             line["offered"].get<int>());
 }
 
-TEST(BenchLine, MeasuresACleanLineAndARecordedOne) {
+TEST(BenchLineProgram, MeasuresACleanLineAndARecordedOne) {
   const TestFolder folder("bench-line");
   const std::string up = folder.path("stops.up"), down = folder.path("stops.down");
   write_capacity_trace(up);
@@ -67,7 +67,7 @@ TEST(BenchLine, MeasuresACleanLineAndARecordedOne) {
   EXPECT_EQ(report["lines"][0]["up"]["line"]["queue_dropped"], 0);
 }
 
-TEST(BenchLine, WritesATableOfEachLineFromEachOfItsMoments) {
+TEST(BenchLineProgram, WritesATableOfEachLineFromEachOfItsMoments) {
   const TestFolder folder("bench-line");
   const std::string trace = folder.path("wifi.csv");
   std::ofstream(trace) << "t_ms,owd_var_ms\n0,1\n100,30\n200,2\n";
@@ -80,7 +80,7 @@ TEST(BenchLine, WritesATableOfEachLineFromEachOfItsMoments) {
     EXPECT_NE(done.output.find(part), std::string::npos) << done.output;
 }
 
-TEST(BenchLine, NamesATraceThatIsNoTraceAndTheCure) {
+TEST(BenchLineProgram, NamesATraceThatIsNoTraceAndTheCure) {
   const TestFolder folder("bench-line");
   const std::string trace = folder.path("prose.txt");
   std::ofstream(trace) << "once upon a time\n";

@@ -1,7 +1,8 @@
 #!/bin/sh
 # What a file may be: at most 400 lines of at most 100 columns (C and C++), no name that says nothing, no tab or trailing space, one line break at its end;
 # no folder with more than 30 sources;
-# a header begins with a comment that says what it is for, and labels its threads and its failures.
+# a header begins with a comment on what it is for;
+# core/program/child_process.cpp alone forks and sends signals, and none to -1, 0 or 1.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 cd "$here/../.."
@@ -22,6 +23,7 @@ function wrong(what) { printf "%s\n", what; failed = 1 }
   sub(/\..*/, "", stem)
   if (("_" stem "_") ~ /_(utils?|common|misc|helpers?)_/) wrong(file ": the name says nothing")
   line = 0
+  may_signal = file == "core/program/child_process.cpp"
   comment = ""
   is_head = 1
   while ((getline text < file) > 0) {
@@ -31,6 +33,10 @@ function wrong(what) { printf "%s\n", what; failed = 1 }
     columns = text
     gsub(/[\200-\277]/, "", columns)  # bytes that continue a character
     if (file ~ /\.(h|hpp|c|cpp)$/ && length(columns) > 100) wrong(file ":" line ": " length(columns) " columns; at most 100")
+    code = text
+    sub(/\/\/.*/, "", code)
+    if (file ~ /\.(h|hpp|c|cpp)$/ && !may_signal && code ~ /(^|[^A-Za-z_.>])(kill|killpg|tgkill|sigqueue|fork|vfork|forkpty|posix_spawnp?) *\(/)
+      wrong(file ":" line ": only core/program/child_process.cpp forks and sends signals; use ChildProcess or send_signal()")
     if (is_head && text ~ /^\/\//) comment = comment "\n" text
     else is_head = 0
   }
@@ -38,10 +44,6 @@ function wrong(what) { printf "%s\n", what; failed = 1 }
   if (file ~ /\.(h|cpp)$/ && line > 400) wrong(file ": " line " lines; above 400 it wants a split")
   if (name ~ /\.h$/) {
     if (comment == "") wrong(file ":1: a header begins with a comment on what it is for")
-    else {
-      if (comment !~ /\n\/\/ Threads: /) wrong(file ":1: no line \"// Threads:\" in the first comment")
-      if (comment !~ /\n\/\/ Failure: /) wrong(file ":1: no line \"// Failure:\" in the first comment")
-    }
   }
 }
 END {

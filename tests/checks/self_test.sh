@@ -6,7 +6,7 @@ tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
 mkdir -p "$tree/tests/checks" "$tree/core/base" "$tree/core/pose" "$tree/transformers" "$tree/producers" "$tree/consumers" \
   "$tree/docs" "$tree/logs" "$tree/bin"
-cp "$here"/*.sh "$here"/layers.txt "$tree/tests/checks"
+cp "$here"/*.sh "$here"/*.py "$here"/layers.txt "$tree/tests/checks"
 cp "$here/../private_network.sh" "$tree/tests"
 failed=0
 
@@ -23,8 +23,10 @@ expect() { # expect CHECK TEXT: the check fails and its output holds the text
 expect_fine() {
   output=$("$tree/tests/checks/$1" ${2:+"$2"} 2>&1) || { echo "$1 fails on a good tree:"; printf '%s\n' "$output"; failed=1; }
 }
-good_header() { printf '// A thing.\n//\n// Threads: none inside.\n// Failure: none.\n#pragma once\n'; }
+good_header() { printf '// A thing.\n#pragma once\n'; }
 
+mkdir "$tree/core/program"
+printf 'int pid = fork();\n' >"$tree/core/program/child_process.cpp"
 good_header >"$tree/core/base/thing.h"
 printf '#include "core/base/thing.h"\n#include <vector>\n' >"$tree/core/pose/thing.cpp"
 printf '```sh\ndance thing --good 3   # runs in CI\n```\n' >"$tree/docs/tour.md"
@@ -94,9 +96,23 @@ expect files.sh '401 lines'
 rm "$tree/core/base/bad.cpp"
 fault core/base/bad.h '#pragma once\n'
 expect files.sh 'a header begins with a comment'
-fault core/base/bad.h '// A thing.\n// Threads: one.\n#pragma once\n'
-expect files.sh 'no line "// Failure:"'
 rm "$tree/core/base/bad.h"
+for call in '::kill(child, 9)' 'if (kill (-1, 9) != 0)' 'pid_t p = fork()' 'x = forkpty(&a, b, c, d)' 'posix_spawnp(&p)'; do
+  fault core/base/bad.cpp "void f() { $call; }\n"
+  expect files.sh 'core/base/bad.cpp:1: only core/program/child_process.cpp forks and sends signals'
+done
+fault core/base/bad.cpp 'void f() { server.kill(); overkill(1); }  // kill(1, 2)\n'
+expect_fine files.sh
+rm "$tree/core/base/bad.cpp"
+
+fault core/base/one.h '// One.\nnamespace dance {\nstruct Same : Base {\n};\n}\n'
+fault core/base/other.cpp 'namespace dance {\nnamespace {\nstruct Same {};\n}\nnamespace x { struct Same {}; }\nvoid f() { struct Same {}; }\n}\n'
+expect_fine one_definition.py
+fault core/base/other.cpp 'namespace dance {\nclass alignas(8) Same final {};\n}\n'
+expect one_definition.py 'dance::Same: defined in core/base/one.h and core/base/other.cpp'
+fault core/base/other.cpp 'namespace dance {\nenum class Same : int { kOne };\n}\n'
+expect one_definition.py 'dance::Same: defined in core/base/one.h and core/base/other.cpp'
+rm "$tree/core/base/one.h" "$tree/core/base/other.cpp"
 
 fault docs/tour.md '# X\nSee [this](gone.md), [that](../docs/tour.md#x) and [the web](https://example.org).\n'
 expect docs_links.sh 'docs/tour.md: links to gone.md, which does not exist'

@@ -9,8 +9,8 @@
 namespace dance {
 namespace {
 
-const GuestId kAlice = GuestId::parse("alice").value();
-const GuestId kBob = GuestId::parse("bob").value();
+const GuestId kLead = GuestId::parse("alice").value();
+const GuestId kFollow = GuestId::parse("bob").value();
 
 MonoTime at_s(double s) { return MonoTime::from_us(5'000'000) + Duration::seconds(s); }
 
@@ -38,10 +38,10 @@ class GlbConsumers : public testing::Test {
 TEST_F(GlbConsumers, WriteAllGuestsOnOneTimeLineWhateverTheirClocks) {
   GlbConsumer consumer(output(), 60.0, GuestId());
   // Bob's house is 1000 s ahead, sends 25 poses a second and begins half a second later.
-  for (int i = 0; i < 60; ++i) consumer.on_pose(kAlice, walking(i / 30.0, 1, 0.0), at_s(i / 30.0));
+  for (int i = 0; i < 60; ++i) consumer.on_pose(kLead, walking(i / 30.0, 1, 0.0), at_s(i / 30.0));
   for (int i = 0; i < 30; ++i)
-    consumer.on_pose(kBob, walking(0.5 + i / 25.0, 2, 1000.0), at_s(0.5 + i / 25.0));
-  consumer.on_skeleton(kBob, average_skeleton(1.9f), at_s(1.0));
+    consumer.on_pose(kFollow, walking(0.5 + i / 25.0, 2, 1000.0), at_s(0.5 + i / 25.0));
+  consumer.on_skeleton(kFollow, average_skeleton(1.9f), at_s(1.0));
   ASSERT_TRUE(consumer.finish().has_value());
   const auto clips = written();
   ASSERT_EQ(clips.size(), 2u);
@@ -59,16 +59,16 @@ TEST_F(GlbConsumers, WriteAllGuestsOnOneTimeLineWhateverTheirClocks) {
 }
 
 TEST_F(GlbConsumers, KeepHandsAndLeaveOthersOutWhereOneGuestIsChosen) {
-  GlbConsumer consumer(output(), 60.0, kAlice);
+  GlbConsumer consumer(output(), 60.0, kLead);
   for (int i = 0; i < 30; ++i) {
-    consumer.on_pose(kAlice, walking(i / 60.0, 1, 0.0), at_s(i / 60.0));
-    consumer.on_pose(kBob, walking(i / 60.0, 1, 0.0), at_s(i / 60.0));
+    consumer.on_pose(kLead, walking(i / 60.0, 1, 0.0), at_s(i / 60.0));
+    consumer.on_pose(kFollow, walking(i / 60.0, 1, 0.0), at_s(i / 60.0));
     Hands hands;
     hands.clock_id = 1;
     hands.capture_time = at_s(i / 60.0);
     hands.presence = (1u << kFingerBoneCount) - 1;
     hands.R_PB[4] = Eigen::AngleAxisf(0.03f * static_cast<float>(i), Eigen::Vector3f::UnitZ());
-    consumer.on_hands(kAlice, hands, at_s(i / 60.0));
+    consumer.on_hands(kLead, hands, at_s(i / 60.0));
   }
   ASSERT_TRUE(consumer.finish().has_value());
   const auto clips = written();
@@ -81,7 +81,7 @@ TEST_F(GlbConsumers, KeepHandsAndLeaveOthersOutWhereOneGuestIsChosen) {
 
 TEST_F(GlbConsumers, CountWhatIsLeftOutAndStayBounded) {
   GlbConsumer consumer(output(), 60.0, GuestId(), 20);
-  for (int i = 0; i < 30; ++i) consumer.on_pose(kAlice, walking(i / 60.0, 1, 0.0), at_s(i / 60.0));
+  for (int i = 0; i < 30; ++i) consumer.on_pose(kLead, walking(i / 60.0, 1, 0.0), at_s(i / 60.0));
   ASSERT_TRUE(consumer.finish().has_value());
   EXPECT_EQ(written().front().clip.frames.size(), 20u);
   EXPECT_NE(consumer.summary().find("10 messages left out"), std::string::npos)
@@ -92,8 +92,8 @@ TEST_F(GlbConsumers, ASilenceIsStoodThroughAndCounted) {
   GlbConsumer consumer(output(), 60.0, GuestId());
   for (const double begin_s : {0.0, 5.0})
     for (int i = 0; i < 10; ++i)
-      consumer.on_pose(kAlice, walking(begin_s + i / 60.0, 1, 0.0), at_s(begin_s + i / 60.0));
-  consumer.on_pose(kAlice, walking(1.0, 1, 0.0), at_s(6.0));  // old
+      consumer.on_pose(kLead, walking(begin_s + i / 60.0, 1, 0.0), at_s(begin_s + i / 60.0));
+  consumer.on_pose(kLead, walking(1.0, 1, 0.0), at_s(6.0));  // old
   ASSERT_TRUE(consumer.finish().has_value());
   const auto clips = written();
   ASSERT_EQ(clips.size(), 1u);
@@ -106,7 +106,7 @@ TEST_F(GlbConsumers, ASilenceIsStoodThroughAndCounted) {
 }
 
 TEST_F(GlbConsumers, SayThatNobodyWasHeardInsteadOfAnEmptyFile) {
-  GlbConsumer consumer(output(), 60.0, kBob);
+  GlbConsumer consumer(output(), 60.0, kFollow);
   const auto finished = consumer.finish();
   ASSERT_FALSE(finished.has_value());
   EXPECT_NE(finished.error().what.find("no GLB written, as no pose was heard of bob"),

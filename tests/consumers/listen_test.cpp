@@ -1,9 +1,5 @@
 // The program dance-listen on a real bus, in a network of its own.
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -15,6 +11,7 @@
 
 #include "core/bus/bus.h"
 #include "core/net/mono_clock.h"
+#include "core/program/child_process.h"
 #include "formats/bvh/bvh.h"
 #include "tests/test_folder.h"
 
@@ -24,41 +21,13 @@ namespace {
 constexpr const char* kUrl = "udpm://239.255.76.67:7741?ttl=0";
 const std::string kListen = std::string(DANCE_BINARY_DIR) + "/bin/dance-listen";
 
-// A child that is killed when the test ends before it does.
-class Child {
- public:
-  Child(std::vector<std::string> arguments, const std::string& stdout_path) {
-    arguments.insert(arguments.begin(), kListen);
-    std::vector<char*> pointers;
-    for (std::string& argument : arguments) pointers.push_back(argument.data());
-    pointers.push_back(nullptr);
-    pid_ = fork();
-    if (pid_ == 0) {
-      const int fd = open(stdout_path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-      dup2(fd, STDOUT_FILENO);
-      execv(pointers[0], pointers.data());
-      _exit(127);
-    }
-  }
-  ~Child() {
-    if (pid_ <= 0) return;
-    kill(pid_, SIGKILL);
-    waitpid(pid_, nullptr, 0);
-  }
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
-
-  void terminate() { kill(pid_, SIGTERM); }
-  bool has_ended() {
-    if (pid_ > 0 && waitpid(pid_, &status_, WNOHANG) == pid_) pid_ = 0;
-    return pid_ <= 0;
-  }
-  int exit_code() const { return WIFEXITED(status_) ? WEXITSTATUS(status_) : -1; }
-
- private:
-  pid_t pid_ = 0;
-  int status_ = -1;
-};
+// dance-listen, with its stdout in a file; ends with the test.
+ChildProcess start_listen(const std::vector<std::string>& arguments, const std::string& output) {
+  auto child =
+      ChildProcess::start({.program = kListen, .arguments = arguments, .output_file = output});
+  EXPECT_TRUE(child) << child.error().what;
+  return std::move(*child);
+}
 
 class Listen : public testing::Test {
  protected:
@@ -98,7 +67,8 @@ class Listen : public testing::Test {
 };
 
 TEST_F(Listen, WritesATableOfTheOneGuestAskedForAndEndsByItself) {
-  Child child({"--bus", kUrl, "--to", "csv", "--guest", "bob", "--seconds", "1"}, output_);
+  ChildProcess child =
+      start_listen({"--bus", kUrl, "--to", "csv", "--guest", "bob", "--seconds", "1"}, output_);
   dance_until([&] { return child.has_ended(); });
   EXPECT_EQ(child.exit_code(), 0);
   const auto all = lines();
@@ -109,11 +79,11 @@ TEST_F(Listen, WritesATableOfTheOneGuestAskedForAndEndsByItself) {
 }
 
 TEST_F(Listen, ShowsPosesAsTheyComeAndWritesWholeLinesWhenToldToStop) {
-  Child child({"--bus", kUrl}, output_);
+  ChildProcess child = start_listen({"--bus", kUrl}, output_);
   // Lines are there while it still listens: nothing waits for the end.
   dance_until([&] { return lines().size() > 20 || child.has_ended(); });
   ASSERT_FALSE(child.has_ended());
-  child.terminate();
+  child.ask_to_stop();
   dance_until([&] { return child.has_ended(); });
   EXPECT_EQ(child.exit_code(), 0);
   bool has_alice = false, has_bob = false;
@@ -128,8 +98,8 @@ TEST_F(Listen, ShowsPosesAsTheyComeAndWritesWholeLinesWhenToldToStop) {
 
 TEST_F(Listen, WritesABvhWhenToldToStop) {
   const std::string path = output_ + ".bvh";
-  Child child({"--bus", kUrl, "--to", "bvh", "--guest", "alice", "-o", path, "--seconds", "1"},
-              output_);
+  ChildProcess child = start_listen(
+      {"--bus", kUrl, "--to", "bvh", "--guest", "alice", "-o", path, "--seconds", "1"}, output_);
   dance_until([&] { return child.has_ended(); });
   EXPECT_EQ(child.exit_code(), 0);
   const auto bvh = read_bvh(text_of(path));
@@ -141,7 +111,7 @@ TEST_F(Listen, WritesABvhWhenToldToStop) {
 
 TEST_F(Listen, EndsWithOneWhereNothingCanBeWrittenAndWithTwoOnWrongUse) {
   const auto code_of = [this](std::vector<std::string> arguments) {
-    Child child(std::move(arguments), output_);
+    ChildProcess child = start_listen(arguments, output_);
     while (!child.has_ended()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     return child.exit_code();
   };

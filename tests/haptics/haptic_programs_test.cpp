@@ -11,6 +11,8 @@
 namespace dance {
 namespace {
 
+class HapticPrograms : public BusPrograms {};
+
 // Whether a haptic came to the ear, as OSC writes it.
 bool feels(UdpSocket& ear) {
   for (const auto& datagram : ear.receive()) {
@@ -21,7 +23,7 @@ bool feels(UdpSocket& ear) {
   return false;
 }
 
-TEST_F(BusPrograms, WhatACoupleFeelsIsRecordedAndFeltAgainInAReplay) {
+TEST_F(HapticPrograms, WhatACoupleFeelsIsRecordedAndFeltAgainInAReplay) {
   auto ear = UdpSocket::bind(Address::loopback(0));
   ASSERT_TRUE(ear);
   const auto feel_on = [&](const char* bus) {
@@ -54,7 +56,7 @@ TEST_F(BusPrograms, WhatACoupleFeelsIsRecordedAndFeltAgainInAReplay) {
 }
 
 // At real-time priority, so by a program of its own, which is told things like the house.
-TEST_F(BusPrograms, AHouseRunsHapticsThatAreToBeExactAsAProgramOfItsOwn) {
+TEST_F(HapticPrograms, AHouseRunsHapticsThatAreToBeExactAsAProgramOfItsOwn) {
   ::setenv("XDG_RUNTIME_DIR", folder_.path("").c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
   auto ear = UdpSocket::bind(Address::loopback(0));
   ASSERT_TRUE(ear);
@@ -75,7 +77,7 @@ TEST_F(BusPrograms, AHouseRunsHapticsThatAreToBeExactAsAProgramOfItsOwn) {
   EXPECT_TRUE(wait_for([&] { return feels(*ear); })) << text_of(folder_.path("talk"));
 }
 
-TEST(HapticPrograms, SayInOneLineWhatIsMissing) {
+TEST(HapticProgramErrors, SayInOneLineWhatIsMissing) {
   const Finished none = run(bin("dance-haptics"));
   EXPECT_EQ(none.exit_code, 2);
   EXPECT_NE(none.talk.find("--guest alice --to evdev"), std::string::npos) << none.talk;
@@ -105,7 +107,7 @@ TEST(HapticPrograms, SayInOneLineWhatIsMissing) {
     EXPECT_NE((help.output + help.talk).find(example), std::string::npos) << help.output;
 }
 
-TEST_F(BusPrograms, AHousesHapticsAreSwitchedOffAndOnFromAnotherTerminal) {
+TEST_F(HapticPrograms, AHousesHapticsAreSwitchedOffAndOnFromAnotherTerminal) {
   ::setenv("XDG_RUNTIME_DIR", folder_.path("").c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
   auto ear = UdpSocket::bind(Address::loopback(0));
   ASSERT_TRUE(ear);

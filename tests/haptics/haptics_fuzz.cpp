@@ -7,6 +7,7 @@
 #include "core/bus/encode.h"
 #include "haptics/haptic_maker.h"
 #include "haptics/sound/tone_mixer.h"
+#include "tests/fuzz_target.h"
 
 namespace {
 
@@ -18,7 +19,7 @@ struct ValidOnly final : dance::HapticSink {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(haptics) {
   using dance::Decoded;
   ValidOnly sink;
   dance::HapticMaker maker({}, 1, 1);

@@ -45,17 +45,23 @@ TEST_F(HeadsetShowTest, TheStageIsDrawnForBothEyesWhereTheyAreAndTheProgramEndsW
   EXPECT_GT(captured_["alice"].poses, 0);
   EXPECT_TRUE(has_recorded("view left -0.03")) << "where the runtime has the eye, in its space";
   EXPECT_TRUE(has_recorded("view right 0.03"));
+  // The first pictures may be blank, as the stage is still being loaded.
+  const auto has_a_scene = [](const std::string& picture) {
+    return picture.size() > 15 && std::set<char>(picture.begin() + 15, picture.end()).size() > 10;
+  };
   std::string left, right;
   ASSERT_TRUE(until([&] {
     for (const auto& file : std::filesystem::directory_iterator(folder_.path())) {
-      const std::string name = file.path().filename();
-      if (name.ends_with("-left.ppm")) left = text_of(file.path());
-      if (name.ends_with("-right.ppm")) right = text_of(file.path());
+      std::string path = file.path();
+      const std::size_t eye = path.rfind("-left.ppm");
+      if (eye == std::string::npos) continue;
+      left = text_of(path);
+      right = text_of(path.replace(eye, std::string::npos, "-right.ppm"));
+      if (has_a_scene(left) && right.size() == left.size()) return true;
     }
-    return left.size() > 15 && right.size() == left.size();
+    return false;
   })) << record();
   EXPECT_TRUE(left.starts_with("P6\n160 176\n255\n")) << left.substr(0, 20);
-  EXPECT_GT(std::set<char>(left.begin() + 15, left.end()).size(), 10u) << "it is not blank";
   EXPECT_NE(left, right);
   program.stop(Duration::s(60));
   EXPECT_TRUE(program.ended_well()) << program.exit_text() << talk();
@@ -65,14 +71,18 @@ TEST_F(HeadsetShowTest, TheStageIsDrawnForBothEyesWhereTheyAreAndTheProgramEndsW
 
 TEST_F(HeadsetShowTest, TimesThatCannotBeTrueAndEyesThatAreNotKnownDoNotStopThePictures) {
   ChildProcess& program = put_on_small(
-      "at 2 bad_time zero\nat 3 bad_time past\nat 4 bad_time far\nat 5 bad_time garbage\n"
+      "at 1.5 bad_time zero\nat 1.75 bad_time zero\nat 2 bad_time zero\nat 2.25 bad_time zero\n"
+      "at 2.5 bad_time past\nat 2.75 bad_time past\nat 3 bad_time past\nat 3.25 bad_time past\n"
+      "at 3.5 bad_time far\nat 3.75 bad_time far\nat 4 bad_time far\nat 4.25 bad_time far\n"
+      "at 4.5 bad_time garbage\nat 4.75 bad_time garbage\nat 5 bad_time garbage\n"
       "at 6 nan head\nat 6.5 lose head\nat 7 find head\nat 7.5 visible off\nat 8 visible on\n"
       "at 9 exit\n",
       {"--no-mirror"});
   ASSERT_TRUE(until([&] { return program.has_ended(); })) << talk();
   EXPECT_EQ(program.exit_code(), 1) << program.exit_text() << talk();
   EXPECT_GT(pictures(), 10) << record();
-  // A machine that is late by half a second is told as such a time, too.
+  // A loaded machine skips the pictures of most of these 15 times, and is late by half a second
+  // at others, which counts too.
   const std::string summary = talk();
   const std::size_t end = summary.find(" times that could not be true");
   ASSERT_NE(end, std::string::npos) << summary;

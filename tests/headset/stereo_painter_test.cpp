@@ -163,6 +163,16 @@ TEST_F(StereoPicture, WhoComesTooNearFadesAway) {
   EXPECT_GT(change_between(draw(with(other_at(-0.12f))).left, empty.left).pixels, 5000);
 }
 
+TEST_F(StereoPicture, EachPlaceShowsTheOtherDancerInBothEyes) {
+  for (const PlaceName& it : kPlaceNames) {
+    wishes_.place = it.place;
+    const Eyes empty = draw({});
+    const Eyes eyes = draw(with(other_at(-2.0f)));
+    EXPECT_GT(change_between(eyes.left, empty.left).pixels, 300) << it.option;
+    EXPECT_GT(change_between(eyes.right, empty.right).pixels, 300) << it.option;
+  }
+}
+
 TEST_F(StereoPicture, NamesAreOverHeadsInBothEyes) {
   const SceneState scene = with(other_at(-2.0f));
   const Eyes without = draw(scene);

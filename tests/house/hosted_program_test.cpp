@@ -5,6 +5,7 @@
 
 #include "core/net/mono_clock.h"
 #include "core/program/talk.h"
+#include "house/voice/house_voice.h"
 #include "house/voice/voice_sign.h"
 #include "tests/test_folder.h"
 
@@ -161,6 +162,38 @@ TEST_F(HostedProgramTest, WrongUseAndAnEndWithoutErrorAreForGood) {
   }
   const std::string text = ::testing::internal::GetCapturedStderr();
   EXPECT_EQ(count_of(text, "starts it again"), 0) << text;
+}
+
+// A port that keeps what is published.
+class KeepingPort final : public SignalPort {
+ public:
+  const Counters& counters() const override { return counters_; }
+  void send(const Channel& channel, const AnyMessage&) override {
+    published_.emplace_back(channel.view());
+  }
+  void add(std::shared_ptr<Subscription>) override {}
+
+  std::vector<std::string> published_;
+
+ private:
+  Counters counters_;
+};
+
+TEST(HouseVoice, ReportsAVoiceWithoutSoundWhileItsProgramHasNone) {
+  auto poller = Poller::create();
+  ASSERT_TRUE(poller);
+  KeepingPort port;
+  HostedVoice hosted;
+  hosted.guest = *GuestId::parse("alice");
+  ::testing::internal::CaptureStderr();  // there is no dance-voice beside this test
+  {
+    const HouseVoice voice(hosted, "memq://", port, **poller);
+    const MonoTime end = mono_now() + Duration::s(60);
+    while (port.published_.empty() && mono_now() < end) (*poller)->run_once(Duration::ms(50));
+  }
+  ::testing::internal::GetCapturedStderr();
+  ASSERT_FALSE(port.published_.empty());
+  EXPECT_EQ(port.published_[0], "VOICE_STATE/capture/alice");
 }
 
 TEST(VoiceSign, IsAStateOfThisMachineWithADeviceOfAProgramThatDidNotEndSoon) {

@@ -4,10 +4,13 @@
 #include <filesystem>
 
 #include "core/net/local_address.h"
+#include "core/program/child_process.h"
 #include "tests/apps/bus_programs.h"
 
 namespace dance {
 namespace {
+
+using HouseHaptics = BusPrograms;
 
 // By the socket where it is told things, "haptics-alice-01234567.PID", which one that was killed
 // leaves behind.
@@ -18,13 +21,13 @@ pid_t running_haptics(pid_t other_than) {
     if (!name.starts_with("haptics-alice-")) continue;
     const long number = std::stol(name.substr(name.rfind('.') + 1));
     if (number > 0 && number < (1L << 32) && number != other_than &&
-        ::kill(static_cast<pid_t>(number), 0) == 0)
+        send_signal(static_cast<pid_t>(number), 0))
       return static_cast<pid_t>(number);
   }
   return 0;
 }
 
-TEST_F(BusPrograms, ExactHapticsThatAreStartedAgainKeepWhatTheyWereTold) {
+TEST_F(HouseHaptics, ExactHapticsThatAreStartedAgainKeepWhatTheyWereTold) {
   ::setenv("XDG_RUNTIME_DIR", folder_.path("").c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
   std::ofstream(folder_.path("exact.toml"))
       << "[house]\nbus = \"" << kBus << "\"\nguest = \"alice\"\n"
@@ -46,7 +49,7 @@ TEST_F(BusPrograms, ExactHapticsThatAreStartedAgainKeepWhatTheyWereTold) {
   };
   for (std::size_t death = 1; death <= 3; ++death) {
     const pid_t running = first;
-    ASSERT_EQ(::kill(running, SIGKILL), 0);
+    ASSERT_TRUE(send_signal(running, SIGKILL));
     ASSERT_TRUE(wait_for([&] { return deaths() == death; })) << talk();
     if (death == 3) break;
     ASSERT_TRUE(wait_for([&] { return (first = running_haptics(running)) > 0; })) << talk();

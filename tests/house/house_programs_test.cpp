@@ -2,6 +2,7 @@
 // that.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "tests/apps/bus_programs.h"
@@ -9,13 +10,13 @@
 namespace dance {
 namespace {
 
-constexpr const char* kServer = "127.0.0.1:7445";
+constexpr const char* kHouseServer = "127.0.0.1:7445";
 
 class HousePrograms : public BusPrograms {
  protected:
   void SetUp() override {
     start("dance-server", {"--port", "7445", "--bind", "127.0.0.1"});
-    start("dance-link", {"--server", kServer, "--room", "salsa", "--guest", "alice", "--guest",
+    start("dance-link", {"--server", kHouseServer, "--room", "salsa", "--guest", "alice", "--guest",
                          "bob", "--bus", kBus});
     for (const char* guest : {"alice", "bob"})
       start("dance-salsa", {"--guest", guest, "--bus", kBus});
@@ -53,7 +54,7 @@ class HousePrograms : public BusPrograms {
 
 TEST_F(HousePrograms, HearWhomTheSessionWantsAndTheCommandLineCountsMore) {
   const std::string session = folder_.path("house.toml");
-  std::ofstream(session) << "[house]\nserver = \"" << kServer
+  std::ofstream(session) << "[house]\nserver = \"" << kHouseServer
                          << "\"\nroom = \"salsa\"\nwant = [\"default=0\", \"bob=1\"]\n";
   // Whom a house does not want is not sent a pose of, from the first hello on: none, however long
   // it takes.
@@ -68,9 +69,39 @@ TEST_F(HousePrograms, HearWhomTheSessionWantsAndTheCommandLineCountsMore) {
   EXPECT_EQ(received(by_option, "bob"), 0u) << by_option;
   // Without a file, the option alone.
   const auto without = counted_when_heard(
-      "bob", {kServer, "--room", "salsa", "--guest", "carol", "--want", "alice=0"});
+      "bob", {kHouseServer, "--room", "salsa", "--guest", "carol", "--want", "alice=0"});
   ASSERT_TRUE(without.is_object()) << without;
   EXPECT_GT(received(without, "bob"), 0u) << without;
+}
+
+// Whether alice and bob face each other on this stage for a second without a break, within a step.
+void expect_partners_on_stage(const char* bus) {
+  struct Seen {
+    Eigen::Vector3f p_WH_m = Eigen::Vector3f::Zero(), forward = Eigen::Vector3f::Zero();
+    MonoTime at;
+  };
+  auto ear = Bus::open(bus);
+  ASSERT_TRUE(ear) << ear.error().what;
+  std::map<std::string, Seen> seen;
+  (*ear)->subscribe<Pose>(Where::kStage, [&](const Channel& channel, const Pose& pose, MonoTime) {
+    seen[std::string(channel.guest().view())] = {
+        pose.p_WH_m, pose.R_PB[0] * Eigen::Vector3f::UnitZ(), mono_now()};
+  });
+  MonoTime since;
+  float distance_m = 0.0f, facing = 0.0f;
+  EXPECT_TRUE(wait_for([&] {
+    const MonoTime now = mono_now();
+    (*ear)->drain(now);
+    const Seen &alice = seen["alice"], &bob = seen["bob"];
+    distance_m = (alice.p_WH_m - bob.p_WH_m).norm();
+    facing = alice.forward.dot(bob.forward);
+    const bool are_shown = now - alice.at < Duration::s(1) && now - bob.at < Duration::s(1);
+    const bool are_partners = are_shown && distance_m > 0.4f && distance_m < 1.3f && facing < 0.0f;
+    if (!are_partners) since = MonoTime();
+    if (are_partners && !since.is_set()) since = now;
+    return are_partners && now - since > Duration::s(1);
+  })) << bus
+      << ": " << seen.size() << " dancers, " << distance_m << " m apart, facing " << facing;
 }
 
 class TwoHouses : public BusPrograms {
@@ -115,12 +146,25 @@ TEST_F(TwoHouses, OnOneBusBothSaySoOnce) {
   EXPECT_EQ(said(), times) << text_of(folder_.path("talk"));
 }
 
+TEST_F(TwoHouses, WithUntouchedSettingsAreACoupleOnBothStages) {
+  start("dance-server", {"--port", "7445", "--bind", "127.0.0.1"});
+  for (const auto& [guest, bus] : {std::pair("alice", kBus), {"bob", kOtherBus}}) {
+    const std::string session = folder_.path(std::string(guest) + ".toml");
+    std::ofstream(session) << "[house]\nserver = \"" << kHouseServer
+                           << "\"\nroom = \"salsa\"\nguest = \"" << guest
+                           << "\"\n[[produce]]\nkind = \"salsa\"\nguest = \"" << guest << "\"\n";
+    start("dance-join", {session, "--bus", bus, "--no-view"});
+  }
+  expect_partners_on_stage(kBus);
+  expect_partners_on_stage(kOtherBus);
+}
+
 TEST_F(HousePrograms, ARefusalThatStaysIsSaidOnce) {
   ASSERT_TRUE(wait_for([&] {
     return text_of(folder_.path("talk")).find("in room 'salsa'") != std::string::npos;
   })) << text_of(folder_.path("talk"));
   start("dance-join",
-        {kServer, "--room", "salsa", "--guest", "alice", "--bus", kOtherBus, "--no-view"});
+        {kHouseServer, "--room", "salsa", "--guest", "alice", "--bus", kOtherBus, "--no-view"});
   const auto refusals = [&] {
     const Finished status = run(bin("dance-status --port 7445 --once --json"));
     const auto all = nlohmann::json::parse(status.output, nullptr, false);

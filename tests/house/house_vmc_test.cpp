@@ -14,7 +14,7 @@ class HouseVmc : public BusPrograms {};
 TEST_F(HouseVmc, SendsADancerOutAndTakesThemBackInAsAnother) {
   std::ofstream(folder_.path("house.toml"))
       << "[house]\nbus = \"" << kBus << "\"\nguests = [\"alice\", \"carol\"]\n"
-      << "[[produce]]\nkind = \"salsa\"\nguest = \"alice\"\n"
+      << "[[produce]]\nkind = \"salsa\"\nguest = \"alice\"\nrole = \"lead\"\n"
       << "[[produce]]\nkind = \"vmc\"\nguest = \"carol\"\nlisten = \"127.0.0.1:39577\"\n"
       << "[[listen]]\nto = \"vmc\"\nfrom = \"POSE/capture/alice\"\naddress = \"127.0.0.1:39577\"\n"
       << "dialect = \"vrm1\"\nrate = 30\n";

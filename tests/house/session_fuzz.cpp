@@ -6,8 +6,9 @@
 #include <string_view>
 
 #include "house/session.h"
+#include "tests/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(session) {
   const auto session =
       dance::parse_session({reinterpret_cast<const char*>(data), size}, "fuzz.toml");
   if (!session && session.error().what.rfind("fuzz.toml:", 0) != 0) std::abort();

@@ -10,7 +10,7 @@ namespace {
 
 const std::string kCouple = DANCE_SOURCE_DIR "/logs/couple.lcm";
 
-HouseConfig house_of(const std::string& text) {
+HouseConfig house_with_partner(const std::string& text) {
   const auto house =
       parse_session("[house]\nguest = \"ann\"\nserver = \"a.org\"\n" + text, "h.toml");
   EXPECT_TRUE(house) << house.error().what;
@@ -18,7 +18,7 @@ HouseConfig house_of(const std::string& text) {
 }
 
 TEST(SessionPartner, AMadeUpOneDancesInTheSameTempo) {
-  HouseConfig house = house_of(
+  HouseConfig house = house_with_partner(
       "[[produce]]\nkind = \"salsa\"\nguest = \"ann\"\ntempo = 200\n[music]\n"
       "follow = true\n");
   dance_alone(house);
@@ -32,8 +32,8 @@ TEST(SessionPartner, AMadeUpOneDancesInTheSameTempo) {
 }
 
 TEST(SessionPartner, OfARecordedCoupleEachIsAnother) {
-  HouseConfig house =
-      house_of("[[produce]]\nkind = \"replay\"\nguest = \"ann\"\nfile = \"" + kCouple + "\"\n");
+  HouseConfig house = house_with_partner(
+      "[[produce]]\nkind = \"replay\"\nguest = \"ann\"\nfile = \"" + kCouple + "\"\n");
   ASSERT_TRUE(add_partner(house, kCouple));
   const HostedProducer& own = house.producers[0];
   const HostedProducer& partner = house.producers[1];
@@ -46,7 +46,7 @@ TEST(SessionPartner, OfARecordedCoupleEachIsAnother) {
 }
 
 TEST(SessionPartner, SaysWhatIsWrongWithAFile) {
-  HouseConfig house = house_of("");
+  HouseConfig house = house_with_partner("");
   const auto added = add_partner(house, "/nowhere/x.bvh");
   ASSERT_FALSE(added);
   EXPECT_NE(added.error().what.find("/nowhere/x.bvh"), std::string::npos);
@@ -57,7 +57,7 @@ TEST(SessionPartner, SaysWhatIsWrongWithAFile) {
 
 TEST(SessionPartner, WhatIsPractisedToIsAsLoudAsItWasLeft) {
   const auto volume_of = [](const char* tables) {
-    HouseConfig house = house_of(tables);
+    HouseConfig house = house_with_partner(tables);
     dance_alone(house);
     practise_to(house, "song.ogg");
     return house.music->volume;
@@ -67,21 +67,48 @@ TEST(SessionPartner, WhatIsPractisedToIsAsLoudAsItWasLeft) {
   EXPECT_EQ(volume_of("[music]\nfollow = true\nvolume = 0.7\n[window]\nvolume = 0.4\n"), 0.7);
 }
 
+TEST(SessionPartner, AddsTheBandUnlessTheHouseHasMusicOrExcludesIt) {
+  HouseConfig house = house_with_partner("");
+  let_band_play(house, "swing");
+  ASSERT_TRUE(house.music);
+  EXPECT_EQ(house.music->band, "swing");
+  EXPECT_TRUE(house.music->follow);
+  EXPECT_EQ(house.music->guest.view(), "ann");
+  for (const char* music : {"[music]\nfile = \"a.ogg\"\n", "[music]\nmicrophone = true\n",
+                            "[music]\nband = \"none\"\n"}) {
+    HouseConfig other = house_with_partner(music);
+    let_band_play(other, "swing");
+    EXPECT_TRUE(!other.music || other.music->band.empty()) << music;
+  }
+  HouseConfig alone = house_with_partner("[music]\nband = \"tango\"\n");
+  dance_alone(alone);
+  ASSERT_TRUE(alone.music);
+  EXPECT_EQ(alone.music->band, "tango");
+  EXPECT_FALSE(alone.music->follow);
+}
+
 TEST(SessionWindow, IsReadAndItsErrorsHaveAPlace) {
-  const HouseConfig house =
-      house_of("[window]\nlanguage = \"de\"\nrooms = [\"salsa@a.org:7400\"]\nmirror = false\n");
+  const HouseConfig house = house_with_partner(
+      "[window]\nlanguage = \"de\"\nrooms = [\"salsa@a.org:7400\"]\nmirror = false\n"
+      "place = \"bar\"\n");
   EXPECT_EQ(house.window.language, "de");
   ASSERT_EQ(house.window.rooms.size(), 1u);
   EXPECT_EQ(house.window.rooms[0].server, "a.org:7400");
   EXPECT_FALSE(house.window.mirror);
+  EXPECT_EQ(house.window.place, "bar");
+  EXPECT_EQ(house_with_partner("").window.place, "studio") << "the default";
   for (const char* wrong :
        {"langage = \"de\"", "language = \"fr\"", "rooms = [\"salsa\"]", "rooms = [\"S@a\"]",
-        "width = 3", "mirror = 1", "volume = 2", "partner = \"\""}) {
+        "width = 3", "mirror = 1", "volume = 2", "partner = \"\"", "band = \"polka\""}) {
     const auto read =
         parse_session("[house]\nguest = \"ann\"\n[window]\n" + std::string(wrong) + "\n", "h.toml");
     ASSERT_FALSE(read) << wrong;
     EXPECT_TRUE(read.error().what.starts_with("h.toml:4:")) << read.error().what;
   }
+  const auto beach =
+      parse_session("[house]\nguest = \"ann\"\n[window]\nplace = \"beach\"\n", "h.toml");
+  ASSERT_FALSE(beach);
+  EXPECT_NE(beach.error().what.find("studio, bar, terrace, plain"), std::string::npos);
 }
 
 }  // namespace

@@ -8,9 +8,10 @@
 
 #include "core/net/mono_clock.h"
 #include "tests/test_folder.h"
+#include "tests/tunnel/seal/guest_key.h"
 #include "tunnel/link/link.h"
-#include "tunnel/seal/house_keys.h"
-#include "tunnel/seal/key_files.h"
+#include "tunnel/seal/keys/house_keys.h"
+#include "tunnel/seal/keys/key_files.h"
 #include "tunnel/server/server.h"
 
 namespace dance {
@@ -19,9 +20,7 @@ namespace {
 TEST(KnownRooms, AreAskedWhoIsThereWithTheKeyOfTheHouse) {
   const TestFolder folder("known-rooms");
   auto poller = *Poller::create();
-  KeyEntry key;
-  key.name = *GuestId::parse("bob");
-  key.key = PresharedKey::make();
+  GuestKey key = key_of("bob");
   key.room = *GuestId::parse("salsa");
   KeyRing ring;
   ASSERT_TRUE(ring.add(key));
@@ -32,15 +31,14 @@ TEST(KnownRooms, AreAskedWhoIsThereWithTheKeyOfTheHouse) {
   LinkOptions of;
   of.room = *GuestId::parse("salsa");
   ASSERT_TRUE(of.guests.try_push(key.name));
-  LinkKey link_key;
-  link_key.name = "bob";
-  link_key.key = key.key;
-  auto link = Link::open({(*server)->local_address()}, link_key, of, {}, *poller);
+  const PublicKey server_key = options.identity.public_key();
+  auto link =
+      Link::open({(*server)->local_address()}, link_key_of(key, server_key), of, {}, *poller);
   ASSERT_TRUE(link);
 
   const std::string address = (*server)->local_address().to_string();
   HouseKeys keys;
-  keys.put({*GuestId::parse("bob"), address, GuestId(), key.key});
+  keys.put({key.name, address, GuestId(), server_key, key.own});
   ASSERT_TRUE(write_secret(folder.path("keys"), keys.text()));
   std::ofstream(folder.path("house.toml"))
       << "[house]\nguest = \"bob\"\nkey_file = \"" << folder.path("keys") << "\"\n";
@@ -73,7 +71,7 @@ TEST(KnownRooms, AreAskedWhoIsThereWithTheKeyOfTheHouse) {
 
   // One key for one of them.
   keys = HouseKeys();
-  keys.put({*GuestId::parse("bob"), address, *GuestId::parse("salsa"), key.key});
+  keys.put({key.name, address, key.room, server_key, key.own});
   ASSERT_TRUE(write_secret(folder.path("keys"), keys.text()));
   rooms.ask(model);
   EXPECT_TRUE(turn_until(know_both));
@@ -119,6 +117,7 @@ struct KnownRoomFacts : testing::Test {
 TEST_F(KnownRoomFacts, AreOfTheRoomThatWasAskedForWhereverItIsByNow) {
   EXPECT_EQ(names(), "bob dora ");
   model.choose_room({"tango", "a.org"});
+  model.remember_room();
   EXPECT_EQ(names(), "dora bob ");
   model.forget_room(1);
   KnownRooms::take(model, {1,

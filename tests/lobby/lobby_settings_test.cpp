@@ -81,6 +81,40 @@ TEST(LobbySettings, KeepWhatTheWindowDoesNotKnow) {
   EXPECT_EQ(read(text), wanted);
 }
 
+TEST(LobbySettings, WriteTheChosenFigureToTheHouseFile) {
+  LobbySettings wanted = read("[house]\nguest = \"alice\"\n");
+  wanted.look = "flared-tail-s5-h1";
+  wanted.colour = "#2f7fd1";
+  wanted.figure_height = 1.05;
+  const std::string text = write("[house]\nguest = \"alice\"\n", wanted);
+  const auto house = parse_session(text, "house.toml");
+  ASSERT_TRUE(house) << text;
+  ASSERT_EQ(house->avatars.size(), 1u) << text;
+  const AvatarChoice& choice = house->avatars[0].choice;
+  EXPECT_EQ(choice.look, "flared-tail-s5-h1");
+  EXPECT_EQ(choice.colour, "#2f7fd1");
+  EXPECT_DOUBLE_EQ(choice.height, 1.05);
+  // An avatar has its own clothes, so no look is written for it.
+  wanted.avatar = "teo";
+  const LobbySettings teo = read(write(text, wanted));
+  EXPECT_EQ(teo.avatar, "teo");
+  EXPECT_EQ(teo.look, "");
+  EXPECT_DOUBLE_EQ(teo.figure_height, 1.05);
+  EXPECT_EQ(write(write(text, wanted), read("[house]\nguest = \"alice\"\n")).find("[[avatar]]"),
+            std::string::npos);
+}
+
+TEST(LobbySettings, ReadALookInPlaceOfAnAvatarsNameAsTheMannequins) {
+  const std::string text =
+      "[house]\nguest = \"alice\"\n[[avatar]]\nguest = \"alice\"\nname = \"dress-bun\"\n";
+  LobbySettings settings = read(text);
+  EXPECT_EQ(settings.avatar, "");
+  EXPECT_EQ(settings.look, "dress-bun");
+  EXPECT_EQ(write(text, settings), text);
+  settings.look = "dress-bob";
+  EXPECT_EQ(read(write(text, settings)), settings);
+}
+
 TEST(LobbySettings, WhoDoesNotSpeakKeepsWhatWasWrittenOfTheVoice) {
   LobbySettings wanted = read(kByHand);
   wanted.speaks = false;
@@ -133,6 +167,9 @@ TEST(LobbySettings, AHouseThatOnlyWatchesStaysOneUntilANameIsChosen) {
   EXPECT_TRUE(parse_session(write(text, wanted), "h.toml")->guests.empty());
   wanted.name = "ann";
   EXPECT_EQ(parse_session(write(text, wanted), "h.toml")->guests.size(), 1u);
+  wanted.name = LobbySettings().name;
+  wanted.shown_name = "\u821e";  // no id can be made from it
+  EXPECT_EQ(parse_session(write(text, wanted), "h.toml")->guests.size(), 1u);
 }
 
 class Dice {
@@ -152,12 +189,16 @@ LobbySettings any_settings(Dice& dice) {
   using S = std::string;
   LobbySettings it;
   it.name = dice.one_of<S>({"alice", "ann-2", "b"});
-  it.source = dice.one_of({kCamera, kFile, kHeadset, kSynthetic});
+  it.shown_name = dice.one_of<S>({"", "Alicia \"Ali\" López", "B"});
+  it.source = dice.one_of({kCamera, kFile, kHeadset, kSynthetic, kWatch});
   it.camera = dice.one_of<S>({"", "/dev/video0", "HD Webcam"});
   it.height_m = dice.one_of({0.0, 0.8, 1.64, 2.5});
   it.motion_file = dice.one_of<S>({"/a/take.bvh", "/ü/night \"x\".lcm"});
-  it.leads = dice.one_of({true, false});
+  it.role = dice.one_of<S>({"any", "lead", "follow"});
   it.avatar = dice.one_of<S>({"", "marisol", "/home/a b/me.vrm"});
+  it.look = dice.one_of<S>({"", "dress-bun", "s4-h1"});
+  it.colour = dice.one_of<S>({"", "#e04080"});
+  it.figure_height = dice.one_of({1.0, 0.95, 1.1});
   it.speaks = dice.one_of({true, false});
   it.has_headphones = dice.one_of({true, false});
   it.microphone = dice.one_of<S>({"", "alsa_input.usb"});
@@ -168,7 +209,10 @@ LobbySettings any_settings(Dice& dice) {
   if (dice.one_of({true, false})) it.window.rooms = {{"salsa", "a.org:7400"}, {"x", "[::1]:1"}};
   it.window.partner = dice.one_of<S>({"lead", "follow", "/p/couple.lcm"});
   it.window.music = dice.one_of<S>({"", "/m/song.ogg"});
+  it.window.band = dice.one_of<S>({"salsa", "tango", "none"});
   it.window.mirror = dice.one_of({true, false});
+  it.window.place = dice.one_of<S>({"studio", "bar", "plain"});
+  it.window.letters = dice.one_of({1.0, 0.9, 1.3});
   it.window.width_px = dice.one_of({1280, 1921});
   it.window.height_px = dice.one_of({720, 1000});
   return only_what_counts(it);
@@ -190,6 +234,26 @@ TEST(LobbySettings, WhateverIsChosenComesBackFromTheFile) {
   EXPECT_LT(fresh.size(), 2000u) << "edits do not pile up";
 }
 
+TEST(WindowChoices, DefaultSizeFitsASmallScreenWithFrameAndTaskBar) {
+  constexpr int kFrame_px = 40, kTaskBar_px = 60;
+  EXPECT_LE(WindowChoices().width_px, 1366);
+  EXPECT_LE(WindowChoices().height_px, 768 - kFrame_px - kTaskBar_px);
+}
+
+TEST(LobbySettings, WatchingKeepsTheCameraForALaterDance) {
+  const std::string camera =
+      "[house]\nguest = \"alice\"\n[[produce]]\nkind = \"camera\"\nguest = \"alice\"\n"
+      "device = \"/dev/video2\"\nmodel = \"lite\"\n";
+  LobbySettings dancer = read(camera);
+  LobbySettings watcher = dancer;
+  watcher.source = DancerSource::kWatch;
+  const std::string watches = write(camera, watcher);
+  EXPECT_TRUE(parse_session(watches, "h.toml")->watch);
+  EXPECT_NE(watches.find("model = \"lite\""), std::string::npos);
+  EXPECT_FALSE(loses_a_table(dancer, watcher));
+  EXPECT_EQ(write(watches, dancer), camera);
+}
+
 TEST(LobbySettings, WhatIsWrittenInAWayThatCannotBeChangedIsTold) {
   LobbySettings wanted = read("house = { guest = \"alice\" }\n");
   wanted.server = "example.org";
@@ -201,9 +265,11 @@ TEST(LobbySettings, WhatIsWrittenInAWayThatCannotBeChangedIsTold) {
 TEST(LobbySettings, ANameIsMadeOfWhateverIsTyped) {
   EXPECT_EQ(name_from("Anna Maria"), "anna-maria");
   EXPECT_EQ(name_from("  --x--  "), "x");
-  EXPECT_EQ(name_from("Zoë!"), "zo");
+  EXPECT_EQ(name_from("Zoë!"), "zoe");
   EXPECT_EQ(name_from("???"), "");
   EXPECT_EQ(name_from(std::string(50, 'a')).size(), 24u);
+  EXPECT_EQ(further_name("ana"), "ana-2");
+  EXPECT_EQ(further_name(std::string(24, 'a')), std::string(24, 'a'));
 }
 
 class SettingsFileTest : public testing::Test {
@@ -229,6 +295,20 @@ TEST_F(SettingsFileTest, IsMadeWithItsFolderAndReadAgain) {
   EXPECT_FALSE(opened->is_new);
   EXPECT_EQ(opened->settings, settings);
   EXPECT_TRUE(load_session(path())) << "dance join takes it as it is";
+}
+
+TEST_F(SettingsFileTest, ATrialLeavesTheFileAloneAndIsRemoved) {
+  SettingsFile file(folder_.path("dancegraph/house.toml"));
+  LobbySettings settings = first_settings();
+  ASSERT_TRUE(file.save(settings));
+  const std::string before = text_of(file.path());
+  settings.server = "dance.example.org:7400";
+  const auto trial = file.save_trial(settings);
+  ASSERT_TRUE(trial) << trial.error().what;
+  EXPECT_EQ(text_of(file.path()), before);
+  EXPECT_EQ(load_session(*trial)->server, "dance.example.org:7400");
+  file.remove_trial();
+  EXPECT_FALSE(std::filesystem::exists(*trial));
 }
 
 TEST_F(SettingsFileTest, ABrokenFileIsToldWithItsLineAndKept) {

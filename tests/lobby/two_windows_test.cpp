@@ -16,26 +16,26 @@ namespace dance {
 namespace {
 
 constexpr int kGuest_x = 1280;  // the second window is at the right of the first
-// Where things are in a window of 1280 x 1000.
+// Positions in a window of 1280 x 1100, high enough for the last button of an invitation.
 constexpr int kHostScreen_x = 100, kHostScreen_y = 216;
 constexpr int kOpenRoom_x = 420, kOpenRoom_y = 143;
 constexpr int kJoinOwn_x = 560, kJoinOwn_y = 142;
-constexpr int kName_x = 640, kName_y = 465;
-constexpr int kAddress_x = 480, kAddress_y = 547;
-constexpr int kFieldHalf_px = 140;  // of what is looked at
-constexpr int kInvite_x = 426, kInvite_y = 602;
-// With a QR code above it, and in a build without such.
-constexpr int kCopy_x = 364, kCopy_y = 913, kCopyWithoutCode_y = 741;
+constexpr int kName_x = 640, kAddress_x = 480;
+constexpr int kFields_x = 700;                 // in both of these fields, right of the text
+constexpr int kFieldHalf_px = 140;             // of what is looked at
+constexpr int kInvite_x = 340, kCopy_x = 332;  // at the edges of the buttons, beside their labels
 constexpr int kPaste_x = 975, kOpenInvitation_x = 407;
 constexpr int kOpenFrom_x = 335, kBelowTiles_y = 300;  // what is between depends on the build
 constexpr int kToMiddle_px = 22, kFieldAbove_px = 54;
+// The column of Join in the question, and a height above it.
+constexpr int kConfirm_x = 600, kAboveConfirm_y = 300;
 // In the middle of the field with the invitation.
 constexpr int kPastedFrom_x = 340, kPastedTo_x = 700;
 
 std::string settings_of_dancer(const char* name, const char* role, const char* bus) {
   return "[house]\nguest = \"" + std::string(name) + "\"\nbus = \"" + bus +
          "\"\n[[produce]]\nkind = \"salsa\"\nguest = \"" + name + "\"\nrole = \"" + role +
-         "\"\n[window]\nheight = 1000\n";
+         "\"\n[window]\nwidth = 1280\nheight = 1100\n";
 }
 
 // What a house stages of a guest, and what its window has shown.
@@ -112,7 +112,7 @@ class TwoWindowsTest : public testing::Test {
   std::string talk() const { return host_.talk() + "\n" + guest_.talk(); }
 
   TestFolder folder_{"two-windows"};
-  VirtualDisplay display_{folder_.path(), "2560x1000x24"};
+  VirtualDisplay display_{folder_.path(), "2560x1100x24"};
   std::unique_ptr<TypedInput> input_;
   LobbyOnScreen host_{folder_, "host"}, guest_{folder_, "guest", kGuest_x};
 };
@@ -141,25 +141,36 @@ TEST_F(TwoWindowsTest, OneInvitesTheOtherAndBothDanceTogether) {
   ASSERT_TRUE(wait_for([&] {
     return host_.pixel(kJoinOwn_x, kJoinOwn_y) == LobbyOnScreen::kAccent;
   })) << talk();
-  ASSERT_TRUE(type_at(kName_x, kName_y, "bob"));
-  ASSERT_TRUE(type_at(kAddress_x, kAddress_y, "127.0.0.1"));
+  const std::vector<int> fields = host_.row_middles(kFields_x);
+  ASSERT_GE(fields.size(), 2u);
+  ASSERT_TRUE(type_at(kName_x, fields[0], "bob"));
+  ASSERT_TRUE(type_at(kAddress_x, fields[1], "127.0.0.1"));
   keep("invites");
-  ASSERT_TRUE(click_until(kInvite_x, kInvite_y, [&] {
+  const int invite_y = host_.accent_below(kInvite_x, fields[1]) + kToMiddle_px;
+  ASSERT_TRUE(click_until(kInvite_x, invite_y, [&] {
     return run(bin("dance-server") + " --list-keys").output.find("bob") != std::string::npos;
   })) << talk();
 
   // The guest pastes it. The host copies until there is something to copy.
   const int open_y = guest_.accent_below(kOpenFrom_x, kBelowTiles_y) + kToMiddle_px;
   ASSERT_TRUE(wait_for([&] {
-    click(kCopy_x, kCopyWithoutCode_y);
-    click(kCopy_x, kCopy_y);
+    const std::vector<int> buttons = host_.row_middles(kCopy_x, invite_y);
+    if (!buttons.empty()) click(kCopy_x, buttons.front());
     click(kGuest_x + kPaste_x, open_y - kFieldAbove_px);
     return wait_for([&] { return has_pasted(open_y - kFieldAbove_px); }, std::chrono::seconds(1));
   })) << talk();
   keep("invited");
+  ASSERT_TRUE(click_until(kGuest_x + kOpenInvitation_x, open_y, [&] {
+    return !guest_.shows_lobby();
+  })) << talk();
+  // The question whether to join dims all else.
+  const auto join_y = [&] { return guest_.accent_below(kConfirm_x, kAboveConfirm_y); };
+  ASSERT_TRUE(wait_for([&] { return join_y() >= 0; })) << talk();
+  keep("asked");
   // While a window goes in, and when it is in, there is nothing at these places.
-  ASSERT_TRUE(click_until(kGuest_x + kOpenInvitation_x, open_y, [&] { return guest_.dances(); }))
-      << talk();
+  ASSERT_TRUE(click_until(kGuest_x + kConfirm_x, join_y() + kToMiddle_px, [&] {
+    return guest_.dances();
+  })) << talk();
   ASSERT_TRUE(click_until(kJoinOwn_x, kJoinOwn_y, [&] { return host_.dances(); })) << talk();
 
   // Each stages the other, and its window has shown that.

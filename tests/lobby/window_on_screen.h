@@ -47,7 +47,7 @@ class ScreenDump {
 
 class LobbyOnScreen {
  public:
-  static constexpr unsigned int kAccent = 0xff8b66;
+  static constexpr unsigned int kAccent = 0xff8b66, kRow = 0x2e313d;
 
   // Its settings are in `config`, its left edge is at `x`.
   LobbyOnScreen(const TestFolder& folder, const std::string& name, int x = 0)
@@ -74,12 +74,40 @@ class LobbyOnScreen {
   ScreenDump screen() const { return ScreenDump(screen_); }
   unsigned int pixel(int x, int y) const { return screen().pixel(x_ + x, y); }
   // The list of screens at the left has a colour of its own.
-  bool shows_lobby() const { return pixel(5, 400) == 0x0e1015 && pixel(230, 700) == 0x0e1015; }
+  bool shows_lobby() const { return pixel(5, 400) == 0x0e1015 && pixel(230, 600) == 0x0e1015; }
+  // An error banner is at the top: it is dark red.
+  bool shows_error_banner() const {
+    const ScreenDump dump = screen();
+    for (int x = 320; x < 330; ++x) {
+      const unsigned int colour = dump.pixel(x_ + x, 28);
+      if (colour >> 16 < 0x50 || colour >> 16 > 0x58 || (colour >> 8 & 0xff) > 0x30) return false;
+    }
+    return true;
+  }
   // Where a button that is to be seen first begins in this column, below y; -1 = nowhere.
   int accent_below(int x, int y) const {
     const ScreenDump dump = screen();
     for (; y < dump.height_px(); ++y)
       if (dump.pixel(x_ + x, y) == kAccent) return y;
+    return -1;
+  }
+  // The middles of fields and plain buttons in this column, from the top.
+  std::vector<int> row_middles(int x, int from_y = 0) const {
+    constexpr int kLeast_px = 20;
+    const ScreenDump dump = screen();
+    std::vector<int> middles;
+    for (int y = from_y, begin = from_y; y <= dump.height_px(); ++y) {
+      if (y < dump.height_px() && dump.pixel(x_ + x, y) == kRow) continue;
+      if (y - begin >= kLeast_px) middles.push_back((begin + y) / 2);
+      begin = y + 1;
+    }
+    return middles;
+  }
+  // The end of the lowest row of a list in this column; -1 = there is none.
+  int lowest_row(int x) const {
+    const ScreenDump dump = screen();
+    for (int y = dump.height_px() - 1; y >= 0; --y)
+      if (dump.pixel(x_ + x, y) == kRow) return y;
     return -1;
   }
   std::vector<pid_t> children(const std::string& program) const {

@@ -21,7 +21,7 @@ if [ "${1:-}" != --hidden ]; then
       echo "$(basename "$package"): $(stat -c %s "$package") bytes"
     done
     # Every package that they depend on can be had here, where apt knows any.
-    if has_all apt-get apt-cache && [ -n "$(apt-cache madison liblcm1 2>/dev/null)" ]; then
+    if has_all apt-get apt-cache && [ -n "$(apt-cache madison libssl3 2>/dev/null)" ]; then
       apt-get install --simulate "$scratch"/packages/*.deb >"$scratch/apt.log" 2>&1 || { cat "$scratch/apt.log"; exit 1; }
     else
       echo "apt has no lists here: whether the packages' dependencies exist is not tested"
@@ -49,13 +49,33 @@ expect() { # TEXT IN WHAT: the file IN holds TEXT
   grep -qF -- "$1" "$2" || { wrong "$3: does not say: $1"; tail -n 20 "$2"; }
 }
 
+# Programs are hardened, and do not name the folder that they were built in (docs/security.md).
+if command -v readelf >/dev/null; then
+  for program in "$usr"/bin/* "$usr"/lib/dancegraph/*.so; do
+    readelf -h "$program" >elf.txt 2>/dev/null || continue
+    grep -q 'Type: *DYN' elf.txt || wrong "$program is not position independent"
+    readelf -dW "$program" | grep -q 'FLAGS.*NOW' || wrong "$program binds symbols late (no -z now)"
+    readelf -lW "$program" | grep -q 'GNU_RELRO' || wrong "$program has no RELRO"
+    readelf -sW --dyn-syms "$program" >symbols.txt
+    grep -q '__stack_chk_fail' symbols.txt || wrong "$program has no stack protector"
+    ! grep -qaF "$3" "$program" || wrong "$program names the folder $3"
+  done
+fi
+
 # What the packages say of themselves.
 if [ -e dancegraph.control ]; then
-  for library in liblcm1 libssl3 libc6; do expect "$library" dancegraph.control "Depends"; done
+  for library in libssl3 libc6; do expect "$library" dancegraph.control "Depends"; done
   for package in liblcm-dev libeigen3-dev libexpected-dev; do expect "$package" dancegraph-dev.control "Depends"; done
   # Nothing but the module needs FFmpeg, or what of OpenCV brings a hundred packages.
   sed -n '/^Depends:/,/^[^ D]/p' dancegraph.control >depends
   ! grep -E 'libav|libsw|imgcodecs|videoio' depends || wrong "dancegraph depends on FFmpeg, or on OpenCV's formats"
+  ! grep fluidsynth depends || wrong "dancegraph depends on FluidSynth"
+  if [ -e "$usr/lib/dancegraph/libdance_band.so" ]; then
+    for package in libfluidsynth timgm6mb-soundfont 'dancegraph (= '; do
+      expect "$package" dancegraph-band.control "Depends"
+    done
+    expect dancegraph-band dancegraph.control "Suggests"
+  fi
   if [ -e "$usr/lib/dancegraph/libdance_media.so" ]; then
     for library in libavformat libavcodec libavutil libswresample libswscale 'dancegraph (= '; do
       expect "$library" dancegraph-media.control "Depends"
@@ -111,10 +131,10 @@ if command -v desktop-file-validate >/dev/null; then
 fi
 opens=$(sed -n 's/^Exec=\(dance [a-z]*\) %u$/\1/p' "$entry")
 [ -n "$opens" ] || wrong "the desktop entry starts no command of dance with a link"
-! env -u DISPLAY -u WAYLAND_DISPLAY PATH="$usr/bin:$PATH" $opens 'dance://dance.example.org/salsa?v=1' >link.log 2>&1 || wrong "$opens opens a broken link"
+! env -u DISPLAY -u WAYLAND_DISPLAY PATH="$usr/bin:$PATH" $opens 'dance://dance.example.org/salsa?v=2' >link.log 2>&1 || wrong "$opens opens a broken link"
 expect "the invitation names no guest" link.log "$opens"
 "$dance" server --invite alice --address dance.example.org --room salsa >invited 2>/dev/null || wrong "dance server --invite fails"
-expect "dance://dance.example.org/salsa?v=1&guest=alice&key=" invited "dance server --invite"
+expect "dance://dance.example.org/salsa?v=2&guest=alice&server=" invited "dance server --invite"
 
 # The unit, alone and in a cluster, with the installed program in its place.
 if command -v systemd-analyze >/dev/null; then

@@ -104,7 +104,7 @@ void judge(const char* number, double angle_rad, Tally& tally) {
   }
 }
 
-TEST(CoupleTakes, IdentitiesAreKeptAndHandsInHoldAreTheirOwn) {
+TEST(CaptureCoupleTakes, IdentitiesAreKeptAndHandsInHoldAreTheirOwn) {
   if (!std::filesystem::exists(take(60, "05")))
     GTEST_SKIP() << "no recorded takes here: " << take(60, "05");
   Tally tally;

@@ -166,7 +166,7 @@ TEST(CaptureEval, TellsWhetherMetresGoOnAfterALoss) {
   // A smoother that goes on, and one that does not.
   for (const bool goes_on : {true, false}) {
     BodySmoothing smoothing;
-    for (CaptureFrame& frame : lost.frames) {
+    for (EvaluatedFrame& frame : lost.frames) {
       CapturedPerson& person = frame.people[0];
       if (!person.body.found) {
         goes_on ? smoothing.lose() : smoothing.reset();

@@ -7,7 +7,7 @@
 namespace dance {
 namespace {
 
-TEST(StereoDepth, TellsTheDistanceBetterThanOneEyeOrTwoNetworks) {
+TEST(StereoEval, TellsTheDistanceBetterThanOneEyeOrTwoNetworks) {
   const StereoEval eval = evaluate_stereo({"usual", 3.0, 25.0, 1.75}, {18, 9, 3});
   EXPECT_EQ(eval.hinted, eval.frames);
   std::fputs(stereo_eval_table({eval}).c_str(), stdout);

@@ -6,8 +6,9 @@
 #include "core/program/whole_file.h"
 #include "testing/line/lossy_model.h"
 #include "testing/line/trace_file.h"
+#include "tests/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(lossy) {
   if (size == 0) return 0;
   const std::string_view text(reinterpret_cast<const char*>(data + 1), size - 1);
   const dance::MonoTime begin = dance::MonoTime::from_us(1);

@@ -13,7 +13,7 @@
 namespace dance {
 namespace {
 
-MonoTime at_s(double seconds) { return MonoTime() + Duration::seconds(seconds); }
+MonoTime lapse_time(double seconds) { return MonoTime() + Duration::seconds(seconds); }
 
 Pose swaying(double t_s) {
   Pose pose;
@@ -23,7 +23,7 @@ Pose swaying(double t_s) {
   pose.R_PB[index_of(Bone::kSpine)] =
       Eigen::Quaternionf(Eigen::AngleAxisf(0.2f * std::cos(phase), Eigen::Vector3f::UnitX()));
   pose.p_WH_m.x() = 0.1f * std::sin(phase);
-  pose.capture_time = at_s(t_s);
+  pose.capture_time = lapse_time(t_s);
   pose.clock_id = 3;
   return pose;
 }
@@ -37,9 +37,10 @@ std::vector<Pose> show(Flow& flow, double silent_from_s, double silent_to_s, dou
   std::vector<Pose> shown;
   for (int i = 60; i / 60.0 < to_s; ++i) {
     const double t_s = i / 60.0;
-    if (t_s < silent_from_s || t_s >= silent_to_s) flow.observe(swaying(t_s), at_s(t_s + kDelay_s));
+    if (t_s < silent_from_s || t_s >= silent_to_s)
+      flow.observe(swaying(t_s), lapse_time(t_s + kDelay_s));
     Pose out;
-    EXPECT_TRUE(flow.sample(at_s(t_s + kDelay_s + 0.001), out));
+    EXPECT_TRUE(flow.sample(lapse_time(t_s + kDelay_s + 0.001), out));
     EXPECT_TRUE(is_valid(out));
     if (t_s >= from_s) shown.push_back(out);
   }
@@ -96,9 +97,9 @@ TEST(Bridge, FadesFromOneWhoStandsToOneWhoSpinsNoFasterThanTheySpun) {
     Pose pose = swaying(t_s);
     pose.R_PB[0] = Eigen::Quaternionf(
         Eigen::AngleAxisf(kSpin_rad_s * static_cast<float>(t_s), Eigen::Vector3f::UnitY()));
-    if (t_s < 10.0) flow.observe(pose, at_s(t_s));
+    if (t_s < 10.0) flow.observe(pose, lapse_time(t_s));
     Pose out;
-    ASSERT_TRUE(flow.sample(at_s(t_s), out));
+    ASSERT_TRUE(flow.sample(lapse_time(t_s), out));
     if (i > 60)
       largest_rad_s = std::max(largest_rad_s, 60.0f * before.R_PB[0].angularDistance(out.R_PB[0]));
     before = out;
@@ -111,13 +112,13 @@ TEST(Bridge, DoesNotTakeALongDelayForALapse) {
   Flow flow = *Flow::make({"bridge"});
   for (int i = 60; i < 600; ++i) {
     const double t_s = i / 60.0;
-    flow.observe(swaying(t_s), at_s(t_s + 0.4));
+    flow.observe(swaying(t_s), lapse_time(t_s + 0.4));
     Pose out;
-    ASSERT_TRUE(flow.sample(at_s(t_s + 0.401), out));
+    ASSERT_TRUE(flow.sample(lapse_time(t_s + 0.401), out));
     ASSERT_FALSE(flow.is_continuing()) << t_s;
   }
   Pose out;
-  flow.sample(at_s(10.0 + 0.6), out);
+  flow.sample(lapse_time(10.0 + 0.6), out);
   EXPECT_TRUE(flow.is_continuing());
 }
 
@@ -136,7 +137,7 @@ class Walking : public Extrapolator {
  public:
   static Pose at(MonoTime moment) {
     Pose pose = swaying((moment - MonoTime()).as_seconds());
-    pose.p_WH_m.x() = 0.4f * static_cast<float>((moment - at_s(10.0)).as_seconds());
+    pose.p_WH_m.x() = 0.4f * static_cast<float>((moment - lapse_time(10.0)).as_seconds());
     return pose;
   }
   void observe(const Pose&, MonoTime) override {}
@@ -153,13 +154,13 @@ TEST(Bridge, FadesByTheDancesTimeHoweverLateTheLineAndTheMomentsAskedFor) {
     parts.concealment = std::make_unique<Concealment>();
     MotionSource source(timeline, std::move(parts));
     for (int i = 60; i <= 600; ++i) {
-      const Pose pose = Walking::at(at_s(i / 60.0));
+      const Pose pose = Walking::at(lapse_time(i / 60.0));
       timeline.take(pose, pose.capture_time + Duration::ms(300));
       source.observe();
     }
     Pose out;
     for (double since_s = 0.01; since_s < 0.9; since_s += 1.0 / 60.0) {
-      const MonoTime moment = at_s(10.0 + since_s);
+      const MonoTime moment = lapse_time(10.0 + since_s);
       source.begin_continuation(moment, moment + Duration::seconds(late_s));
       source.at(moment, out);
       const Pose danced = Walking::at(moment);
@@ -175,21 +176,21 @@ TEST(Bridge, FadesByTheDancesTimeHoweverLateTheLineAndTheMomentsAskedFor) {
       }
     }
     // What was danced stays what it was.
-    EXPECT_EQ(source.at(at_s(9.0), out), MotionSource::Kind::kDanced);
-    EXPECT_LT(largest_angle_rad(out, Walking::at(at_s(9.0))), 1e-3f);
+    EXPECT_EQ(source.at(lapse_time(9.0), out), MotionSource::Kind::kDanced);
+    EXPECT_LT(largest_angle_rad(out, Walking::at(lapse_time(9.0))), 1e-3f);
   }
 }
 
 TEST(Bridge, StartsAnewWhenTheSourceChangesItsClockOrJumpsBack) {
   Flow bridge = *Flow::make({"bridge"});
-  for (int i = 60; i < 300; ++i) bridge.observe(swaying(i / 60.0), at_s(i / 60.0));
+  for (int i = 60; i < 300; ++i) bridge.observe(swaying(i / 60.0), lapse_time(i / 60.0));
   Pose out;
-  ASSERT_TRUE(bridge.sample(at_s(6.0), out));
+  ASSERT_TRUE(bridge.sample(lapse_time(6.0), out));
   EXPECT_TRUE(bridge.is_continuing());
   Pose other = swaying(2.0);
   other.clock_id = 77;
-  bridge.observe(other, at_s(6.1));
-  ASSERT_TRUE(bridge.sample(at_s(6.11), out));
+  bridge.observe(other, lapse_time(6.1));
+  ASSERT_TRUE(bridge.sample(lapse_time(6.11), out));
   EXPECT_FALSE(bridge.is_continuing());
   EXPECT_LT((out.p_WH_m - other.p_WH_m).norm(), 1e-4f);
   EXPECT_EQ(bridge.counters().restarts, 1u);
@@ -198,7 +199,7 @@ TEST(Bridge, StartsAnewWhenTheSourceChangesItsClockOrJumpsBack) {
 TEST(Bridge, StaysABodyAndAllocatesNothingWhateverComes) {
   Flow flow = *Flow::make({"hold 20ms", "bridge"});
   Random random(8);
-  MonoTime now = at_s(50.0);
+  MonoTime now = lapse_time(50.0);
   const AllocationGuard guard;
   for (int i = 0; i < 3000; ++i) {
     Pose pose = i % 3 ? swaying((now - MonoTime()).as_seconds()) : random_pose(random);

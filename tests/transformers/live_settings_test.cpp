@@ -16,7 +16,7 @@ namespace dance {
 namespace {
 
 constexpr std::uint64_t kClock = 1;
-constexpr double kHz = 60.0;
+constexpr double kSettingsHz = 60.0;
 constexpr double kTempo_bpm = 180.0;
 const MonoTime kBegin = MonoTime::from_us(5'000'000);
 
@@ -46,7 +46,7 @@ Shown show(const std::vector<std::string>& through, const Change& change, bool g
   BodyFrames now_frames, before;
   constexpr int kFrames = 14 * 60;
   for (int i = 0; i < kFrames; ++i) {
-    const double t_s = i / kHz;
+    const double t_s = i / kSettingsHz;
     Pose pose;
     dancer.dance_at(Duration::seconds(t_s), pose);
     pose.sequence = static_cast<std::uint32_t>(i);

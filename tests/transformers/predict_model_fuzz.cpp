@@ -4,9 +4,10 @@
 #include <memory>
 
 #include "core/base/assert.h"
+#include "tests/fuzz_target.h"
 #include "transformers/predict/dance_predictor.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(predict_model) {
   // The input stands in for the beginning of a whole file: header, weights, dancers. Of 550 kB no
   // mutation would be whole.
   static const std::vector<std::uint8_t> kWhole =

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
-constexpr float kStep_s = 1.0f / 60.0f;
+constexpr float kFramePeriod_s = 1.0f / 60.0f;
 
 void move_foot(BodyFrames& frames, std::size_t side, const Vector3f& by) {
   frames.p_WB_m[ankle_of(side)] += by;
@@ -63,8 +63,8 @@ Walked walk(ScaledSteps& steps, float stride_m, int poses) {
   ScaledSteps::Aim before{};
   for (int i = 0; i < poses; ++i) {
     walk.next(danced, scaled);
-    feet.follow(danced, kStep_s, i == 0);
-    steps.follow(feet, danced, scaled, kStep_s, false);
+    feet.follow(danced, kFramePeriod_s, i == 0);
+    steps.follow(feet, danced, scaled, kFramePeriod_s, false);
     const ScaledSteps::Aim aim = steps.aim(feet, danced, scaled);
     if (i > poses / 2) {
       for (std::size_t side = 0; side < 2; ++side)
@@ -86,8 +86,8 @@ TEST(ScaledSteps, NobodyIsMovedWhoseLegsAreAsDanced) {
   SwingFeet feet;
   ScaledSteps steps;
   const BodyFrames danced = on_its_feet();
-  feet.follow(danced, kStep_s, true);
-  steps.follow(feet, danced, danced, kStep_s, false);
+  feet.follow(danced, kFramePeriod_s, true);
+  steps.follow(feet, danced, danced, kFramePeriod_s, false);
   EXPECT_TRUE(steps.is_home());
   const ScaledSteps::Aim aim = steps.aim(feet, danced, danced);
   EXPECT_EQ(aim.hips_moved_m, Vector3f::Zero());
@@ -108,7 +108,7 @@ TEST(ScaledSteps, WhoWalksOnAndOnIsNotLedAway) {
   const Walked walked = walk(steps, 0.3f, 3600);
   EXPECT_GT(walked.most_hips_m, 0.02f);
   EXPECT_LT(walked.most_hips_m, 0.3f);
-  EXPECT_LT(walked.most_hips_step_m, 2.0f * kStep_s + 1e-5f);
+  EXPECT_LT(walked.most_hips_step_m, 2.0f * kFramePeriod_s + 1e-5f);
 }
 
 TEST(ScaledSteps, HipsGoDownOverBothFeetWhenKneesBendMore) {
@@ -117,10 +117,10 @@ TEST(ScaledSteps, HipsGoDownOverBothFeetWhenKneesBendMore) {
   const BodyFrames danced = on_its_feet();
   BodyFrames scaled = danced;
   for (std::size_t side = 0; side < 2; ++side) move_foot(scaled, side, {0.0f, 0.05f, 0.0f});
-  feet.follow(danced, kStep_s, true);
+  feet.follow(danced, kFramePeriod_s, true);
   for (int i = 0; i < 60; ++i) {
-    feet.follow(danced, kStep_s, false);
-    steps.follow(feet, danced, scaled, kStep_s, false);
+    feet.follow(danced, kFramePeriod_s, false);
+    steps.follow(feet, danced, scaled, kFramePeriod_s, false);
   }
   const ScaledSteps::Aim aim = steps.aim(feet, danced, scaled);
   EXPECT_NEAR(aim.hips_moved_m.y(), -0.05f, 1e-3f);
@@ -132,7 +132,7 @@ TEST(ScaledSteps, ASoleThatIsFlatIsNotTiltedAndAHeelThatIsUpLiftsHigher) {
   SwingFeet feet;
   ScaledSteps steps;
   BodyFrames danced = on_its_feet();
-  feet.follow(danced, kStep_s, true);
+  feet.follow(danced, kFramePeriod_s, true);
   const Quaternionf tilt(Eigen::AngleAxisf(0.2f, Vector3f::UnitX()));
   BodyFrames scaled = danced;
   scaled.R_WB[ankle_of(0)] = tilt;
@@ -152,10 +152,10 @@ TEST(ScaledSteps, AFootThatIsTiltedOnItsWayDoesNotSnapWhereItMeetsTheFloor) {
     SwingFeet feet;
     ScaledSteps steps;
     BodyFrames danced = on_its_feet();
-    feet.follow(danced, kStep_s, true);
+    feet.follow(danced, kFramePeriod_s, true);
     for (int i = 0; i < 20; ++i) {
       move_foot(danced, 0, {0.0f, 0.0f, 0.02f});
-      feet.follow(danced, kStep_s, false);
+      feet.follow(danced, kFramePeriod_s, false);
     }
     ASSERT_EQ(feet.swing(0), 1.0f);
     move_foot(danced, 0, {0.0f, 0.02f, 0.0f});
@@ -179,13 +179,13 @@ TEST(ScaledSteps, NobodyIsPressedDownInTheAir) {
   SwingFeet feet;
   ScaledSteps steps;
   BodyFrames danced = on_its_feet();
-  feet.follow(danced, kStep_s, true);
+  feet.follow(danced, kFramePeriod_s, true);
   for (int i = 0; i < 30; ++i) {
     for (std::size_t side = 0; side < 2; ++side) move_foot(danced, side, {0.0f, 0.02f, 0.02f});
-    feet.follow(danced, kStep_s, false);
+    feet.follow(danced, kFramePeriod_s, false);
     BodyFrames scaled = danced;
     for (std::size_t side = 0; side < 2; ++side) move_foot(scaled, side, {0.0f, 0.25f, 0.0f});
-    if (i >= 5) steps.follow(feet, danced, scaled, kStep_s, false);
+    if (i >= 5) steps.follow(feet, danced, scaled, kFramePeriod_s, false);
     EXPECT_GT(steps.aim(feet, danced, scaled).hips_moved_m.y(), -0.03f) << i;
   }
 }
@@ -197,23 +197,23 @@ TEST(ScaledSteps, FeetGoHomeWithTheirNextSteps) {
   BodyFrames danced, scaled;
   for (int i = 0; i < 300; ++i) {
     walk.next(danced, scaled);
-    feet.follow(danced, kStep_s, i == 0);
-    steps.follow(feet, danced, scaled, kStep_s, false);
+    feet.follow(danced, kFramePeriod_s, i == 0);
+    steps.follow(feet, danced, scaled, kFramePeriod_s, false);
   }
   EXPECT_FALSE(steps.is_home());
   // Who stands does not slide home.
   ScaledSteps waits = steps;
   SwingFeet still = feet;
   for (int i = 0; i < 300; ++i) {
-    still.follow(danced, kStep_s, false);
-    waits.follow(still, danced, danced, kStep_s, true);
+    still.follow(danced, kFramePeriod_s, false);
+    waits.follow(still, danced, danced, kFramePeriod_s, true);
   }
   EXPECT_FALSE(waits.is_home());
   int poses = 0;
   for (; poses < 300 && !steps.is_home(); ++poses) {
     walk.next(danced, scaled);
-    feet.follow(danced, kStep_s, false);
-    steps.follow(feet, danced, danced, kStep_s, true);
+    feet.follow(danced, kFramePeriod_s, false);
+    steps.follow(feet, danced, danced, kFramePeriod_s, true);
   }
   EXPECT_LT(poses, 200);
   EXPECT_TRUE(steps.is_home());

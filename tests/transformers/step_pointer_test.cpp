@@ -12,10 +12,10 @@
 namespace dance {
 namespace {
 
-MonoTime moment_at(double s) { return MonoTime() + Duration::seconds(1.0 + s); }
+MonoTime step_time(double s) { return MonoTime() + Duration::seconds(1.0 + s); }
 
-struct Salsa {
-  Salsa(double tempo_bpm, SalsaRole role, std::uint64_t seed = 5)
+struct SalsaSteps {
+  SalsaSteps(double tempo_bpm, SalsaRole role, std::uint64_t seed = 5)
       : dancer([&] {
           SalsaStyle style;
           style.tempo_bpm = tempo_bpm;
@@ -28,10 +28,10 @@ struct Salsa {
   const MotionFrame& at(double s) {
     Pose pose;
     dancer.dance_at(Duration::seconds(s), pose);
-    pose.capture_time = moment_at(s);
+    pose.capture_time = step_time(s);
     return channels.take(pose);
   }
-  double beats(MonoTime t) const { return dancer.music_beats_at(t - moment_at(0.0)); }
+  double beats(MonoTime t) const { return dancer.music_beats_at(t - step_time(0.0)); }
   SalsaDancer dancer;
   MotionChannels channels;
 };
@@ -69,7 +69,7 @@ TEST(StepPattern, IsMirroredAndBroughtForward) {
 }
 
 std::vector<StepSigns::Slot> signs_of(double hz, double from_s, double to_s, StepSigns& signs,
-                                      Salsa& salsa) {
+                                      SalsaSteps& salsa) {
   std::vector<StepSigns::Slot> slots;
   for (int i = static_cast<int>(from_s * hz); i < static_cast<int>(to_s * hz); ++i) {
     const std::size_t count = signs.add(salsa.at(i / hz));
@@ -80,7 +80,7 @@ std::vector<StepSigns::Slot> signs_of(double hz, double from_s, double to_s, Ste
 
 TEST(StepSigns, AreTheSameAtAnyRateOfPoses) {
   const auto at = [](double hz) {
-    Salsa salsa(176.0, SalsaRole::kLead);
+    SalsaSteps salsa(176.0, SalsaRole::kLead);
     StepSigns signs;
     return signs_of(hz, 0.0, 20.0, signs, salsa);
   };
@@ -94,7 +94,7 @@ TEST(StepSigns, AreTheSameAtAnyRateOfPoses) {
 }
 
 TEST(StepSigns, SayWhatNobodySawAndBeginAnewAfterALongPause) {
-  Salsa salsa(176.0, SalsaRole::kLead);
+  SalsaSteps salsa(176.0, SalsaRole::kLead);
   StepSigns signs;
   EXPECT_GE(signs_of(60.0, 0.0, 5.0, signs, salsa).size(), 49u);
   EXPECT_FALSE(signs.has_begun_anew());
@@ -114,7 +114,7 @@ struct Word {
   double sure = 0.0, mean_beats = 0.0, sd_beats = 0.0, furthest_beats = 0.0;
 };
 // Of a minute of salsa beside a music, from the fifteenth second on.
-Word word_on(StepPointer& pointer, Salsa& salsa, double music_bpm) {
+Word word_on(StepPointer& pointer, SalsaSteps& salsa, double music_bpm) {
   StepSigns signs;
   Word word;
   std::vector<double> off;
@@ -146,7 +146,7 @@ Word word_on(StepPointer& pointer, Salsa& salsa, double music_bpm) {
 TEST(StepPointer, FindsThePlaceInTheBarOfBothPartnersBesideTheirMusic) {
   for (const double bpm : {130.0, 176.0, 205.0})
     for (const SalsaRole role : {SalsaRole::kLead, SalsaRole::kFollow}) {
-      Salsa salsa(bpm, role, 11);
+      SalsaSteps salsa(bpm, role, 11);
       StepPointer pointer;
       const Word word = word_on(pointer, salsa, bpm);
       EXPECT_GT(word.sure, 0.85) << bpm;
@@ -160,7 +160,7 @@ TEST(StepPointer, FindsThePlaceInTheBarOfBothPartnersBesideTheirMusic) {
 
 TEST(StepPointer, DoesNotLagBehindAMusicThatIsAPercentOff) {
   for (const double faster : {0.98, 1.02}) {
-    Salsa salsa(170.0, SalsaRole::kLead, 3);
+    SalsaSteps salsa(170.0, SalsaRole::kLead, 3);
     StepPointer pointer;
     const Word word = word_on(pointer, salsa, 170.0 * faster);
     EXPECT_GT(word.sure, 0.95) << faster;
@@ -169,7 +169,7 @@ TEST(StepPointer, DoesNotLagBehindAMusicThatIsAPercentOff) {
 }
 
 TEST(StepPointer, CountsTwiceAsFastAsASlowMusic) {
-  Salsa salsa(184.0, SalsaRole::kFollow, 7);
+  SalsaSteps salsa(184.0, SalsaRole::kFollow, 7);
   StepPointer pointer;
   const Word word = word_on(pointer, salsa, 92.0);
   EXPECT_GT(word.sure, 0.9);
@@ -178,7 +178,7 @@ TEST(StepPointer, CountsTwiceAsFastAsASlowMusic) {
 }
 
 TEST(StepPointer, IsNotSureOfAnotherTempoOrOfNoise) {
-  Salsa salsa(130.0, SalsaRole::kLead);
+  SalsaSteps salsa(130.0, SalsaRole::kLead);
   StepPointer pointer;
   EXPECT_LT(word_on(pointer, salsa, 170.0).sure, 0.05);
   pointer.forget();
@@ -186,7 +186,7 @@ TEST(StepPointer, IsNotSureOfAnotherTempoOrOfNoise) {
   int sure = 0;
   for (int i = 0; i < 1200; ++i) {
     StepSigns::Slot slot;
-    slot.middle = moment_at(0.1 * i);
+    slot.middle = step_time(0.1 * i);
     slot.is_seen = true;
     for (float& sign : slot.sign) sign = static_cast<float>(random.uniform(-1.7, 1.7));
     pointer.add(slot, 170.0);
@@ -201,7 +201,7 @@ TEST(StepPointer, StaysFiniteWhateverComesAndAllocatesNothing) {
   AllocationGuard guard;
   for (int i = 0; i < 4000; ++i) {
     StepSigns::Slot slot;
-    slot.middle = moment_at(0.1 * i);
+    slot.middle = step_time(0.1 * i);
     slot.is_seen = i % 7 != 0;
     for (float& sign : slot.sign) sign = static_cast<float>(random.uniform(-3.0, 3.0));
     // Musics nobody dances to are borne, too.

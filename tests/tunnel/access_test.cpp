@@ -35,6 +35,16 @@ TEST(Access, WhatIsOneForTheRoomIsTheHostsWhereThereIsOne) {
   }
 }
 
+TEST(Access, AnyGuestSetsTheSongUntilAHostLocksIt) {
+  const auto with = [](Role role) { return Access{.role = role}; };
+  for (const bool is_locked : {false, true})
+    for (const bool locks : {false, true}) {
+      EXPECT_TRUE(may_set_song(with(Role::kHost), is_locked, locks));
+      EXPECT_EQ(may_set_song(with(Role::kGuest), is_locked, locks), !is_locked && !locks);
+      EXPECT_FALSE(may_set_song(with(Role::kListener), is_locked, locks));
+    }
+}
+
 TEST(Access, ARoomKnowsWhetherAHostIsThere) {
   SimulatedTunnel tunnel;
   auto& a = tunnel.add_house("salsa", {"alice"});
@@ -141,6 +151,44 @@ TEST(Listeners, HaveABoundOfTheirOwn) {
   second.is_running = false;
   tunnel.run(Duration::s(2));
   EXPECT_TRUE(third.link->is_connected());
+}
+
+TEST(Access, AKeyThatHasExpiredOpensNoRoomAndTheLinkIsToldWhy) {
+  SimulatedTunnel tunnel;
+  auto& late = tunnel.add_house("salsa", {"alice"}, {},
+                                {.name = guest("alice"), .is_expired = true, .until_s = 1000});
+  tunnel.run(Duration::ms(500));
+  EXPECT_EQ(tunnel.server().session_count(), 0u);
+  EXPECT_TRUE(late.saw("refused 14 "));
+  wire::RefusalNotice notice;
+  notice.cause = wire::Refusal::kKeyExpired;
+  const std::string line = refusal_line(notice, guest("salsa"));
+  EXPECT_NE(line.find("has expired"), std::string::npos) << line;
+  EXPECT_NE(line.find("another invitation"), std::string::npos) << line;
+}
+
+TEST(Access, ASessionEndsWhenItsKeyExpires) {
+  SimulatedTunnel tunnel;
+  std::vector<std::string> causes;
+  tunnel.server().set_on_audit([&](PeerId, const AuditEvent& event) {
+    if (event.kind != AuditKind::kJoined) causes.emplace_back(event.cause);
+  });
+  auto& alice = tunnel.add_house("salsa", {"alice"}, {}, {.name = guest("alice")});
+  auto& bob = tunnel.add_house("salsa", {"bob"}, {}, {.name = guest("bob")});
+  tunnel.run(Duration::ms(600));
+  ASSERT_EQ(tunnel.server().session_count(), 2u);
+  alice.access.is_expired = true;
+  tunnel.change_access(alice);
+  tunnel.run(Duration::ms(1500));
+  EXPECT_EQ(tunnel.server().session_count(), 1u);
+  EXPECT_TRUE(bob.saw("-alice"));
+  EXPECT_TRUE(alice.saw("refused 14 "));
+  ASSERT_GE(causes.size(), 2u);
+  EXPECT_EQ(causes[0], "key_expired");
+  alice.access.is_expired = false;
+  tunnel.seal_anew(alice);
+  tunnel.run(Duration::s(3));
+  EXPECT_EQ(tunnel.server().session_count(), 2u) << "with a key that is good again it comes back";
 }
 
 }  // namespace

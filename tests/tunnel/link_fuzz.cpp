@@ -1,9 +1,10 @@
 // Datagrams at a link, as if its server had sent them; and answers to who is in a room, which no
 // link hears, where they are read.
+#include "tests/fuzz_target.h"
 #include "tests/tunnel/datagram_script.h"
 #include "tunnel/wire/wire_room.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(link_datagram) {
   dance::FuzzScene scene;
   scene.play({data, size}, [&](int peer, dance::wire::Bytes datagram) {
     const auto opening = dance::wire::parse_opening(datagram);

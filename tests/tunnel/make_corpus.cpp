@@ -8,7 +8,8 @@
 #include "core/codec/lossless/lossless_codec.h"
 #include "tests/tunnel/cluster/cluster_samples.h"
 #include "tests/tunnel/datagram_script.h"
-#include "tunnel/seal/preshared_key.h"
+#include "tunnel/seal/keys/identity_key.h"
+#include "tunnel/seal/keys/preshared_key.h"
 #include "tunnel/wire/wire_room.h"
 
 namespace dance {
@@ -101,6 +102,7 @@ void write_tunnel(const std::filesystem::path& root) {
   scene.b->link->send(guest("bob"), Avatar(), tunnel.time_in(*scene.b));
   scene.b->link->send(guest("bob"), Style(), tunnel.time_in(*scene.b));
   scene.b->link->send(guest("bob"), Placement(), tunnel.time_in(*scene.b));
+  scene.b->link->send(guest("bob"), Chat{{}, 0, ChatKind::kHeart, {}}, tunnel.time_in(*scene.b));
   AvatarFile file;
   file.hash.bytes.fill(7);
   file.size_bytes = 3000;
@@ -223,8 +225,10 @@ void write_cluster(const std::filesystem::path& folder) {
     write_seed("value_" + std::to_string(i), 1, cluster::text_of(keys[i]).view(), bytes);
     write_seed("value_at_server_" + std::to_string(i), 7, cluster::text_of(keys[i]).view(), bytes);
   }
-  const std::string line = "alice guest * " + PresharedKey().text();
+  const std::string line = "alice guest * " + PrivateKey::make().public_key().text();
   write_seed("key", 2, "alice", Bytes(line.begin(), line.end()));
+  const std::string identity = PrivateKey::make().public_key().text();
+  write_seed("identity", 2, "_identity", Bytes(identity.begin(), identity.end()));
 }
 
 void write_codec(const std::filesystem::path& root) {

@@ -1,4 +1,4 @@
-// The room's music and scene: who may set them, and who holds them.
+// The room's music, song and scene: who may set them, and whose is in force.
 #include "tests/tunnel/states_scene.h"
 
 namespace dance {
@@ -124,6 +124,71 @@ TEST_F(RoomStates, HostsSetTheRoomsWhereTheyAreThere) {
   tunnel.run(Duration::ms(300));
   EXPECT_EQ(b.scene->second.name.view(), "ball");
   EXPECT_EQ(b.avatars.at(guest("alice")).name.view(), "fox");
+}
+
+TEST_F(RoomStates, MapsTheStartOfASongToTheSameMomentInEveryHouse) {
+  House& a = tunnel.add_house("salsa", {"alice"});
+  House& b = tunnel.add_house("salsa", {"bob"});
+  tunnel.run(Duration::s(2));
+  const RoomSong hers = song(a, 7);
+  const Duration begun = tunnel.time_in(a) - hers.start_time;
+  const MonoTime published = tunnel.now();
+  say(a, "alice", hers);
+  tunnel.run(Duration::s(1));
+  House& c = tunnel.add_house("salsa", {"carol"});
+  tunnel.run(Duration::s(2));
+  for (House* house : {&b, &c}) {
+    const auto mapped = house->link->room_song(tunnel.time_in(*house));
+    ASSERT_TRUE(mapped);
+    EXPECT_EQ(mapped->seed, 7u);
+    const Duration age = tunnel.time_in(*house) - mapped->start_time;
+    EXPECT_NEAR(age.as_ms(), (begun + (tunnel.now() - published)).as_ms(), 3.0);
+  }
+}
+
+TEST_F(RoomStates, AnyGuestSetsTheSongUntilAHostLocksIt) {
+  House& a = tunnel.add_house("salsa", {"alice"}, {}, {.role = Role::kGuest, .any_name = true});
+  House& host = tunnel.add_house("salsa", {"dora"}, {}, {.role = Role::kHost, .any_name = true});
+  tunnel.run(Duration::ms(200));
+  say(a, "alice", song(a, 1));
+  tunnel.run(Duration::ms(300));
+  ASSERT_TRUE(host.song);
+  EXPECT_EQ(host.song->second.seed, 1u);
+  RoomSong locked = song(host, 2);
+  locked.locked = true;
+  say(host, "dora", locked);
+  tunnel.run(Duration::ms(300));
+  say(a, "alice", song(a, 3));
+  tunnel.run(Duration::s(1));
+  EXPECT_EQ(host.song->second.seed, 2u);
+  EXPECT_EQ(a.refused, (std::vector<std::string>{"song overruled", "song not allowed"}));
+  say(host, "dora", song(host, 4));
+  tunnel.run(Duration::ms(300));
+  say(a, "alice", song(a, 5));
+  tunnel.run(Duration::ms(300));
+  EXPECT_EQ(host.song->second.seed, 5u);
+}
+
+TEST_F(RoomStates, IgnoresTheLockOfAHostWhoHasLeft) {
+  House& a = tunnel.add_house("salsa", {"alice"}, {}, {.role = Role::kGuest, .any_name = true});
+  {
+    House& host = tunnel.add_house("salsa", {"dora"}, {}, {.role = Role::kHost, .any_name = true});
+    tunnel.run(Duration::ms(200));
+    RoomSong locked = song(host, 2);
+    locked.locked = true;
+    say(host, "dora", locked);
+    tunnel.run(Duration::ms(300));
+    host.link->say_goodbye();
+  }
+  tunnel.run(Duration::ms(300));
+  ASSERT_TRUE(a.song);
+  ASSERT_TRUE(a.song->second.locked);
+  RoomSong next = song(a, 3);
+  next.locked = true;
+  say(a, "alice", next);
+  tunnel.run(Duration::s(1));
+  EXPECT_EQ(a.song->second.seed, 3u);
+  EXPECT_TRUE(a.refused.empty());
 }
 
 TEST_F(RoomStates, AListenerSetsNothing) {

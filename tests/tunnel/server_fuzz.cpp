@@ -1,8 +1,9 @@
 // Datagrams at a server: of its two links, and of peers without a session yet, of whom one's key
 // opens one room for one name.
+#include "tests/fuzz_target.h"
 #include "tests/tunnel/datagram_script.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(server_datagram) {
   dance::FuzzScene scene;
   const auto alice = *dance::GuestId::parse("alice");
   const auto salsa = *dance::wire::RoomName::parse("salsa");

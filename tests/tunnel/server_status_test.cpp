@@ -219,6 +219,25 @@ TEST_F(StatusTest, JsonHasEverythingAndNoSecret) {
     }
 }
 
+TEST_F(StatusTest, ReportsTheShownNameBesideTheId) {
+  tunnel.link_options.channels = {*ChannelRule::parse("NAMES/* class=state layout=bytes[41]")};
+  tunnel.link_options.channels[0].layout = *LayoutCheck::parse("any");
+  auto& a = tunnel.add_house("salsa", {"alice"});
+  tunnel.run(Duration::ms(300));
+  const auto shown = [&](std::string_view name) {
+    std::vector<std::uint8_t> bytes{0};
+    bytes.insert(bytes.end(), name.begin(), name.end());
+    a.link->send_channel("NAMES/alice", bytes, tunnel.time_in(a), guest("alice"));
+    tunnel.run(Duration::s(1));
+    const auto json = nlohmann::json::parse(to_json(status()), nullptr, false);
+    EXPECT_TRUE(json.is_object());
+    return json["rooms"][0]["links"][0]["guests"][0].value("shown_name", "");
+  };
+  EXPECT_EQ(shown("Alicia \"L\u00f3pez\" \\"), "Alicia \"L\u00f3pez\" \\");
+  EXPECT_EQ(shown("A\x1b[2J"), "") << "an invalid name";
+  EXPECT_EQ(shown(""), "");
+}
+
 TEST_F(StatusTest, JsonStaysJsonWhateverAPeerIsCalled) {
   tunnel.add_house("salsa", {"alice"});
   tunnel.run(Duration::s(1));
@@ -278,6 +297,29 @@ TEST_F(StatusTest, MetricsNameWhoIsHereAndForgetWhoHasLeft) {
   b.is_running = false;
   run(dance, 1);
   EXPECT_EQ(metrics_text(status()).find("bob"), std::string::npos);
+}
+
+TEST_F(StatusTest, SortsKeysByUse) {
+  const auto key = [](const char* name) { return Access{.name = guest(name)}; };
+  auto& a = tunnel.add_house("salsa", {"alice"}, {}, key("alice"));
+  tunnel.add_house("salsa", {"bob"}, {}, key("bob"));
+  tunnel.add_house("tango", {"bob-2"}, {}, key("bob"));
+  tunnel.add_house("tango", {"carol"}, {}, key("carol"));
+  Dance dance{tunnel, {{&a, guest("alice")}}};
+  run(dance, 8);
+  const ServerStatus now = status();
+  ASSERT_EQ(now.keys.size(), 3u);
+  EXPECT_EQ(now.keys[0].sessions + now.keys[1].sessions + now.keys[2].sessions, 4u);
+  for (std::size_t i = 1; i < now.keys.size(); ++i)
+    EXPECT_GE(now.keys[i - 1].bytes_in_per_s + now.keys[i - 1].bytes_out_per_s,
+              now.keys[i].bytes_in_per_s + now.keys[i].bytes_out_per_s);
+  EXPECT_EQ(now.keys[2].name, "carol") << "hears of nobody's dance";
+  const auto json = nlohmann::json::parse(to_json(now));
+  for (const auto& of : json["keys"])
+    if (of["name"] == "bob") {
+      EXPECT_EQ(of["sessions"], 2);
+      EXPECT_EQ(of["rooms"], 2);
+    }
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "core/base/random.h"
+#include "tests/tunnel/session/refused_state.h"
 #include "tunnel/link/link_core.h"
 #include "tunnel/server/server_core.h"
 
@@ -74,9 +75,11 @@ class SimulatedTunnel {
     std::vector<std::pair<GuestId, wire::FileRefusalCause>> file_refusals;
     std::size_t file_blocks = 0;
     bool files_are_right = true;
+    std::vector<std::pair<GuestId, Chat>> chats;
     std::map<GuestId, Style> styles;
     std::map<GuestId, Placement> placements;
     std::optional<std::pair<GuestId, Music>> music;
+    std::optional<std::pair<GuestId, RoomSong>> song;
     std::optional<std::pair<GuestId, Scene>> scene;
     std::vector<std::string> refused;  // "music overruled", "scene not allowed"
     struct ChannelMessage {
@@ -125,6 +128,7 @@ class SimulatedTunnel {
     start_link(house, room, guests);
     return house;
   }
+  void change_access(const House& house) { peers_.at(house.peer) = house.access; }
 
   // A new process in the same house: another token, nothing remembered.
   void start_link(House& house, const std::string& room, const std::vector<std::string>& guests) {
@@ -327,11 +331,13 @@ class SimulatedTunnel {
   }
 
   static void add_state_handlers(House& house, LinkHandlers& handlers) {
-    handlers.on_avatar = [&](const GuestId& id, const Avatar& avatar, MonoTime) {
-      house.avatars.insert_or_assign(id, avatar);
+    const auto keep_last = [](auto& states) {
+      return [&states](const GuestId& id, const auto& value, MonoTime) { states[id] = value; };
     };
-    handlers.on_avatar_file = [&](const GuestId& id, const AvatarFile& file, MonoTime) {
-      house.avatar_files.insert_or_assign(id, file);
+    handlers.on_avatar = keep_last(house.avatars);
+    handlers.on_avatar_file = keep_last(house.avatar_files);
+    handlers.on_chat = [&](const GuestId& id, const Chat& chat, MonoTime) {
+      house.chats.emplace_back(id, chat);
     };
     handlers.on_file = [&](const GuestId& id, const FileHash& hash, ChunkedFile&& file) {
       auto& bytes = house.files[id];
@@ -348,22 +354,16 @@ class SimulatedTunnel {
                                    wire::FileRefusalCause cause) {
       house.file_refusals.emplace_back(id, cause);
     };
-    handlers.on_style = [&](const GuestId& id, const Style& style, MonoTime) {
-      house.styles.insert_or_assign(id, style);
+    handlers.on_style = keep_last(house.styles);
+    handlers.on_placement = keep_last(house.placements);
+    const auto keep = [](auto& state) {
+      return [&state](const GuestId& id, const auto& value, MonoTime) { state.emplace(id, value); };
     };
-    handlers.on_placement = [&](const GuestId& id, const Placement& placement, MonoTime) {
-      house.placements.insert_or_assign(id, placement);
-    };
-    handlers.on_music = [&](const GuestId& id, const Music& music, MonoTime) {
-      house.music.emplace(id, music);
-    };
-    handlers.on_scene = [&](const GuestId& id, const Scene& scene, MonoTime) {
-      house.scene.emplace(id, scene);
-    };
+    handlers.on_music = keep(house.music);
+    handlers.on_song = keep(house.song);
+    handlers.on_scene = keep(house.scene);
     handlers.on_room_state_refused = [&](wire::StateKind kind, wire::StateVerdict verdict) {
-      house.refused.push_back(
-          std::string(kind == wire::StateKind::kMusic ? "music" : "scene") +
-          (verdict == wire::StateVerdict::kOverruled ? " overruled" : " not allowed"));
+      house.refused.push_back(refused_state(kind, verdict));
     };
     handlers.on_channel = [&](const GuestId& id, std::string_view name, ChannelClass,
                               wire::Bytes message, MonoTime now) {

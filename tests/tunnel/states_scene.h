@@ -53,6 +53,16 @@ class StatesScene : public ::testing::Test {
     EXPECT_TRUE(music.title.assign(title));
     return music;
   }
+  // A song that began a second ago in the house's clock.
+  RoomSong song(const SimulatedTunnel::House& house, std::uint32_t seed) {
+    RoomSong song;
+    song.time = tunnel.time_in(house);
+    song.clock_id = house.clock_id;
+    song.start_time = tunnel.time_in(house) - Duration::s(1);
+    song.seed = seed;
+    song.playing = true;
+    return song;
+  }
   template <class Message>
   void say(SimulatedTunnel::House& house, std::string_view who, const Message& message) {
     house.link->send(guest(who), message, tunnel.time_in(house));

@@ -223,14 +223,17 @@ TEST_F(States, DamagedPayloadsAreCountedAndGoNoFurther) {
     wire::begin_states(wire::Type::kState, out);
     wire::add_state({wire::guest_state_at(place), {slot, 0}, {}, 5, rubbish}, out);
     tunnel.inject(a.peer, out.written());
-    ++told;
+    // The server reads chat, and refuses a damaged one.
+    told += wire::guest_state_at(place).kind == wire::StateKind::kChat ? 0 : 1;
   }
   for (std::size_t place = 0; place < wire::kRoomStates; ++place) {
     ByteWriter out(bytes);
     wire::begin_states(wire::Type::kState, out);
-    wire::add_state({wire::room_state_at(place), {}, guest("alice"), 5, rubbish}, out);
+    const wire::StateName name = wire::room_state_at(place);
+    wire::add_state({name, {}, guest("alice"), 5, rubbish}, out);
     tunnel.inject(a.peer, out.written());
-    ++told;
+    // The server reads a song's lock, and refuses a damaged one.
+    told += name.kind == wire::StateKind::kSong ? 0 : 1;
   }
   tunnel.run(Duration::s(1));
   const LinkCounters& c = b.link->counters();

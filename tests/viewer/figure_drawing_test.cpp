@@ -66,7 +66,7 @@ class FigureDrawingTest : public testing::Test {
     glClearColor(0, 0, 0, 0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     const Eigen::Matrix4f clip = camera.clip_from_world(1.0f);
-    drawer_->draw_solid(*light_, clip, camera.eye_W_m(), 1.0f);
+    drawer_->draw_solid(*light_, clip, camera.eye_W_m(), FigureImage::kNone);
     drawer_->draw_blended(*light_, clip, camera.eye_W_m());
     target_->resolve_light();
     glBindTexture(GL_TEXTURE_2D, target_->light().name());

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
+#include <string>
 #include <thread>
 
 #include "core/pose/skeleton.h"
@@ -49,6 +51,23 @@ TEST(FigureMesh, HasFewerAndFewerTrianglesOverTheFirstVertices) {
   }
   EXPECT_EQ(level_for(*mesh, 1e9), 0u);
   EXPECT_EQ(level_for(*mesh, 1.0), mesh->levels.size() - 1);
+}
+
+// Small figures still have a smile and visible eyes.
+TEST(FigureMesh, KeepsTheFaceInCoarseLevels) {
+  const auto mesh = figure_mesh(mannequin());
+  const FigureLevel& level = mesh->levels[level_for(*mesh, 2000.0)];
+  ASSERT_LT(level.triangle_count, 6000u);
+  std::map<std::string, int> kept;  // triangles of each material
+  for (const FigureLevel::Range& range : level.batches)
+    for (std::uint32_t i = 0; i < range.index_count; i += 3) {
+      const FigureVertex& vertex = mesh->vertices[mesh->indices[range.first_index + i]];
+      ++kept[mannequin().materials[vertex.material & 0xffu].name];
+    }
+  EXPECT_GE(kept["lips"], 12);
+  EXPECT_GE(kept["irises"], 8);
+  EXPECT_GE(kept["pupils"], 4);
+  EXPECT_GE(kept["eyes"], 8);
 }
 
 TEST(FigureMesh, DrawsAMannequinOfManyMaterialsInOneCall) {

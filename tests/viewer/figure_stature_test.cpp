@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr ViewDirector::Size kFrame{960, 540, 100};
+constexpr ViewDirector::Size kFramePeriod{960, 540, 100};
 
 struct Worn {
   float avatar_m;  // how tall the avatar's file is
@@ -100,7 +100,7 @@ TEST(FigureStature, TheWholeFigureIsInThePictureOfEveryViewThatShowsIt) {
       const BodyFrames figure = posed(poser, scene);
       ViewDirector director(CameraPreset::kAuto, mode);
       director.choose(scene.guests[0].id);
-      director.jump(scene, kFrame);
+      director.jump(scene, kFramePeriod);
       const StageCell& cell = director.cells()[0];
       const auto width = static_cast<float>(cell.box.width_px);
       const auto height = static_cast<float>(cell.box.height_px);
@@ -124,7 +124,7 @@ TEST(FirstPersonView, StandsAtTheHeadOfTheFigure) {
     const BodyFrames figure = posed(poser, scene);
     ViewDirector director(CameraPreset::kAuto, ViewMode::kFirstPerson);
     director.choose(scene.guests[0].id);
-    director.jump(scene, kFrame);
+    director.jump(scene, kFramePeriod);
     const float large = figure_height_m(scene.guests[0]) / 1.72f;
     const Vector3f from_head = director.camera().eye_W_m() - figure.position(Bone::kHead);
     EXPECT_LT(from_head.norm(), 0.25f * large) << worn.avatar_m;

@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr std::uint64_t kHouseClock = 5;
+constexpr std::uint64_t kHeldHandsClock = 5;
 
 MonoTime picture_time(std::uint32_t number) { return touch_time(16 * number); }
 
@@ -39,7 +39,7 @@ class HouseWithViewer : StageSink {
       : port_(bus_, {true, lead == Lead::kHosted ? std::vector<GuestId>{guest_named("lead")}
                                                  : std::vector<GuestId>{}}),
         lead_port_(lead == Lead::kHosted ? static_cast<SignalPort&>(port_) : bus_),
-        router_(routes, kHouseClock, *this) {
+        router_(routes, kHeldHandsClock, *this) {
     for (const Where where : {Where::kCapture, Where::kGuest, Where::kStage})
       bus_.subscribe<Pose>(where, [this](const Channel& channel, const Pose& pose, MonoTime) {
         board_.on_pose(channel.where(), channel.guest(), pose, now_);
@@ -89,7 +89,7 @@ class HouseWithViewer : StageSink {
   static Pose numbered(Pose pose, std::uint32_t number, MonoTime captured) {
     pose.sequence = number;
     pose.capture_time = captured;
-    pose.clock_id = kHouseClock;
+    pose.clock_id = kHeldHandsClock;
     return pose;
   }
   void stage(const GuestId& who, Pose& pose, MonoTime now) override {
@@ -103,7 +103,7 @@ class HouseWithViewer : StageSink {
   HousePort port_;
   SignalPort& lead_port_;
   Router router_;
-  GuestBoard board_{kHouseClock, false};
+  GuestBoard board_{kHeldHandsClock, false};
   StageRoster roster_{board_};
   SceneState scene_;
   MonoTime now_;

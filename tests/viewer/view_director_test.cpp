@@ -95,6 +95,53 @@ TEST(MirrorView, ShowsTheLeftHandOnTheLeft) {
   EXPECT_LT(left->x_px, right->x_px - 40.0f);
 }
 
+TEST(MirrorView, APartnerInFrontOfTheDancerIsTransparentAndOneAsideIsNot) {
+  ViewDirector director(CameraPreset::kAuto, ViewMode::kMirror);
+  director.choose(*GuestId::parse("alice"));
+  const auto opacity_at = [&](const Vector3f& place) {
+    SceneState scene = alone(Vector3f::Zero(), 0.0f);
+    scene.guests.push_back(guest_at_ease("bob", place, kHalfTurn_rad));
+    director.update(scene, kViewSize, kViewFrame);
+    EXPECT_EQ(scene.guests[0].opacity, 1.0f);
+    return scene.guests[1].opacity;
+  };
+  EXPECT_LT(opacity_at(Vector3f(0.0f, 0.0f, 0.5f)), 0.3f) << "faces alice, before the mirror";
+  EXPECT_EQ(opacity_at(Vector3f(1.3f, 0.0f, 0.5f)), 1.0f);
+  EXPECT_EQ(opacity_at(Vector3f(0.0f, 0.0f, -0.6f)), 1.0f) << "behind alice";
+}
+
+TEST(MirrorView, TheWholeDancerStandsAboveThePanelAtTheBottom) {
+  for (const ViewMode mode : {ViewMode::kMirror, ViewMode::kFollow}) {
+    ViewDirector director(CameraPreset::kAuto, mode);
+    SceneState scene = alone(Vector3f::Zero(), 0.0f);
+    ViewDirector::Size size = kViewSize;
+    size.covered_px = 160;
+    director.update(scene, size, kViewFrame);
+    BodyFrames frames;
+    forward_kinematics(scene.guests[0].skeleton, scene.guests[0].pose, frames);
+    for (const Tip tip : {Tip::kLeftToes, Tip::kRightToes, Tip::kHead}) {
+      const auto at = project(director.camera(), frames.tip(tip), 960.0f, 540.0f);
+      ASSERT_TRUE(at);
+      EXPECT_GT(at->y_px, 0.0f);
+      EXPECT_LT(at->y_px, 540.0f - 160.0f);
+    }
+  }
+}
+
+TEST(ViewDirector, ZoomingInShowsFaces) {
+  for (const ViewMode mode : {ViewMode::kOrbit, ViewMode::kMirror, ViewMode::kFollow}) {
+    ViewDirector director(CameraPreset::kFront, mode);
+    SceneState scene = alone(Vector3f::Zero(), 0.0f);
+    director.update(scene, kViewSize, kViewFrame);
+    for (int i = 0; i < 20; ++i) director.zoom(1.0f);
+    for (int i = 0; i < 400; ++i) director.update(scene, kViewSize, kViewFrame);
+    const auto face = project(director.camera(), face_W_m(scene.guests[0]), 960.0f, 540.0f);
+    ASSERT_TRUE(face);
+    EXPECT_NEAR(face->y_px, 270.0f, 150.0f) << static_cast<int>(mode);
+    EXPECT_NEAR(face->x_px, 480.0f, 150.0f);
+  }
+}
+
 TEST(MirrorView, HangsStillWhileTheDancerTurns) {
   ViewDirector director(CameraPreset::kAuto, ViewMode::kMirror);
   SceneState scene = alone(Vector3f::Zero(), 0.0f);
@@ -207,8 +254,8 @@ TEST(GridView, CellsDoNotOverlapForAnyNumberOfGuests) {
   }
 }
 
-TEST(CoupleFinder, KeepsACoupleThatStepsApartAndPartsItInTheEnd) {
-  CoupleFinder couples;
+TEST(ViewCoupleFinder, KeepsACoupleThatStepsApartAndPartsItInTheEnd) {
+  ViewCoupleFinder couples;
   SceneState scene;
   const auto at = [&](float apart_m, Duration t) {
     scene.time = kViewStart + t;

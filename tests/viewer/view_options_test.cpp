@@ -66,6 +66,19 @@ TEST(CheckShown, RefusesToChooseThePosesOfALogAndNamesTheCure) {
   }
 }
 
+TEST(PlaceToDraw, IsTheStudioForPeopleAndPlainForPicturesThatAreCompared) {
+  ViewOptions options;
+  EXPECT_EQ(place_to_draw(options), Venue::kStudio) << "a window";
+  options.headless = true;
+  EXPECT_EQ(place_to_draw(options), Venue::kPlain);
+  options.export_to = "night.mp4";
+  EXPECT_EQ(place_to_draw(options), Venue::kStudio) << "an export";
+  for (const PlaceName& it : kPlaceNames) {
+    options.place = it.place;
+    EXPECT_EQ(place_to_draw(options), it.place);
+  }
+}
+
 TEST(ParseSize, TakesWidthByHeight) {
   const auto size = parse_size("640x360");
   ASSERT_TRUE(size);

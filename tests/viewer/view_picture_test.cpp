@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kViewWidth_px = 480;
 constexpr int kViewHeight_px = 300;
-constexpr ViewDirector::Size kViewSize{kViewWidth_px, kViewHeight_px, 60};
+constexpr ViewDirector::Size kPictureSize{kViewWidth_px, kViewHeight_px, 60};
 
 OverlayChoice no_words() {
   OverlayChoice choice;
@@ -68,7 +68,7 @@ TEST_F(ViewPicture, InTheMirrorIsTheSamePictureTurnedRound) {
   const SceneState scene = dressed(couple());
   ViewDirector director(CameraPreset::kAuto, ViewMode::kMirror);
   SceneState seen = scene;
-  director.jump(seen, kViewSize);
+  director.jump(seen, kPictureSize);
   OrbitCamera camera = director.camera();
   ASSERT_TRUE(camera.is_mirrored);
   const Picture mirrored = draw(scene, camera);
@@ -87,7 +87,7 @@ TEST_F(ViewPicture, NamesInTheMirrorAreReadFromLeftToRight) {
   scene.guests.push_back(guest_at_ease("alice", Eigen::Vector3f::Zero(), 0.0f));
   scene = dressed(scene);
   ViewDirector director(CameraPreset::kAuto, ViewMode::kMirror);
-  director.jump(scene, kViewSize);
+  director.jump(scene, kPictureSize);
   OverlayChoice tags = no_words();
   tags.tags = true;
   OrbitCamera camera = director.camera();
@@ -106,7 +106,7 @@ TEST_F(ViewPicture, ANameShowsHowItsGuestSpeaks) {
   scene.guests.push_back(guest_at_ease("alice", Eigen::Vector3f::Zero(), 0.0f));
   scene = dressed(scene);
   ViewDirector director(CameraPreset::kAuto, ViewMode::kMirror);
-  director.jump(scene, kViewSize);
+  director.jump(scene, kPictureSize);
   OverlayChoice tags = no_words();
   tags.tags = true;
   const auto at =
@@ -130,9 +130,12 @@ TEST_F(ViewPicture, ANameShowsHowItsGuestSpeaks) {
 
 TEST_F(ViewPicture, ThroughTheEyesOfADancerTheOwnHeadIsNotInTheWay) {
   SceneState scene = dressed(couple());
+  // Without a captured gaze the partner's eyes would move when the first dancer is removed.
+  scene.guests[1].face.emplace();
+  scene.guests[1].face->presence = kFaceSeen | kGazeSeen;
   ViewDirector director(CameraPreset::kAuto, ViewMode::kFirstPerson);
   director.choose(scene.guests[0].id);
-  director.jump(scene, kViewSize);
+  director.jump(scene, kPictureSize);
   const Picture seen = draw(scene, director.camera());
   SceneState without = scene;
   without.guests.erase(without.guests.begin());
@@ -160,7 +163,7 @@ TEST_F(ViewPicture, EachCellOfAGridHasItsOwnDancers) {
   scene = dressed(scene);
   ViewDirector director(CameraPreset::kAuto, ViewMode::kGrid);
   director.choose(scene.guests[2].id);
-  director.jump(scene, kViewSize);
+  director.jump(scene, kPictureSize);
   OverlayChoice choice = no_words();
   choice.whole = &scene;
   ASSERT_TRUE(painter_->draw(director.cells(), kViewWidth_px, kViewHeight_px, choice));

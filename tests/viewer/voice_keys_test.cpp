@@ -29,10 +29,12 @@ class VoiceKeysTest : public ::testing::Test {
   bool is_there_ = true;
   std::vector<std::string> told_;
   VoiceKeys keys_{[this](const GuestId& guest, std::string_view command) -> Result<void> {
-    if (!is_there_) return fail("no dance voice runs for " + std::string(guest.view()));
-    told_.push_back(std::string(guest.view()) + " " + std::string(command));
-    return {};
-  }};
+                    if (!is_there_)
+                      return fail("no dance voice runs for " + std::string(guest.view()));
+                    told_.push_back(std::string(guest.view()) + " " + std::string(command));
+                    return {};
+                  },
+                  Language::kEnglish};
 };
 
 TEST_F(VoiceKeysTest, TalkWhileTheKeyIsHeldAndNoLonger) {
@@ -88,16 +90,20 @@ TEST_F(VoiceKeysTest, MuteAndDeafenTheChosenOrTheFirstAndBack) {
 TEST_F(VoiceKeysTest, SayForAWhileWhatIsMissing) {
   wishes_.mute_presses = 1;
   work();
-  EXPECT_NE(keys_.words(now_).find("dance voice --guest"), std::string::npos);
+  EXPECT_EQ(keys_.words(now_), "You are not in the voice chat.");
   now_ += VoiceKeys::kWordsHold + Duration::ms(1);
   EXPECT_EQ(keys_.words(now_), "");
   add("alice", false);
   wishes_.is_talk_held = true;
   work();
-  EXPECT_NE(keys_.words(now_).find("push to talk is off"), std::string::npos);
+  EXPECT_NE(keys_.words(now_).find("without the key"), std::string::npos);
   scene_.voices[0].is_muted = true;
   work();
   EXPECT_NE(keys_.words(now_).find("muted"), std::string::npos);
+  scene_.voices[0].has_microphone = scene_.voices[0].has_loudspeaker = false;
+  work();
+  EXPECT_NE(keys_.words(now_).find("microphone cannot be reached"), std::string::npos);
+  scene_.voices[0].has_microphone = scene_.voices[0].has_loudspeaker = true;
   is_there_ = false;
   wishes_.mute_presses = 1;
   wishes_.is_talk_held = false;

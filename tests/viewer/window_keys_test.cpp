@@ -145,6 +145,19 @@ TEST(WindowInput, TalksWhileItsKeyIsHeldWithAPanelOpenedMeanwhile) {
   EXPECT_EQ(state.voice.deafen_presses, 1);
 }
 
+TEST(WindowInput, GoesThroughThePlacesBothWays) {
+  WindowState state;
+  ViewDirector director(CameraPreset::kAuto, ViewMode::kOrbit);
+  PanelStack panels;
+  WindowInput input(state, director, panels);
+  EXPECT_EQ(state.place, Venue::kStudio);
+  input.on_key({GLFW_KEY_Z});
+  EXPECT_EQ(state.place, Venue::kBar);
+  input.on_key({GLFW_KEY_Z, false, true});
+  EXPECT_EQ(state.place, Venue::kStudio);
+  EXPECT_EQ(state.place_changes, 2) << "one for each key press";
+}
+
 // The panels of a live window.
 class PanelKeys : public testing::Test {
  protected:
@@ -204,14 +217,14 @@ TEST_F(PanelKeys, TabGoesToThePanelOpenedLast) {
 }
 
 std::string words_of(const std::vector<PanelStack::Group>& groups) {
+  const Texts texts(Language::kEnglish);
   std::string all;
   for (const PanelStack::Group& group : groups) {
-    EXPECT_FALSE(group.title.empty());
-    EXPECT_FALSE(group.keys.empty()) << group.title;
+    EXPECT_NE(group.title, Text::kCount);
+    EXPECT_FALSE(group.keys.empty()) << texts[group.title];
     for (const KeyHelp& help : group.keys) {
-      EXPECT_FALSE(help.key.empty());
-      EXPECT_FALSE(help.what.empty()) << help.key;
-      all += " " + std::string(help.key) + " ";
+      EXPECT_NE(help.what, Text::kCount);
+      all += " " + std::string(help.key_in(texts)) + " ";
     }
   }
   return all;
@@ -231,7 +244,7 @@ TEST(HelpPanel, TellsEveryKeyThatDoesSomething) {
 TEST(HelpPanel, LeavesTheArrowsOfALogToItsTimeline) {
   const std::string live = words_of(window_key_groups(false));
   const std::string of_log = words_of(window_key_groups(true));
-  for (const char* arrow : {"Left", "Right", "Up", "Down"}) {
+  for (const char* arrow : {"←", "→", "↑", "↓"}) {
     EXPECT_NE(live.find(arrow), std::string::npos) << arrow;
     EXPECT_EQ(of_log.find(arrow), std::string::npos) << arrow;
   }

@@ -88,7 +88,7 @@ TEST_F(WindowLogTest, AsksBeforeAnExportIsGivenUp) {
   turn(1);
   for (const int closing : {GLFW_KEY_ESCAPE, GLFW_KEY_Q}) {
     press(GLFW_KEY_E);
-    press(GLFW_KEY_3);
+    press(GLFW_KEY_2);  // pictures
     turn(1);
     ASSERT_EQ(exports(), 1u);
     press(closing);
@@ -114,7 +114,7 @@ TEST_F(WindowLogTest, AnExportThatHasEndedIsNotAskedAbout) {
   player.go_to(player.position() + Duration::ms(100));
   player.set_loop_end();
   press(GLFW_KEY_E);
-  press(GLFW_KEY_2);
+  press(GLFW_KEY_3);  // GLB
   press(GLFW_KEY_Q);
   for (int i = 0; i < 300; ++i) turn(1);
   EXPECT_EQ(exports(), 1u);

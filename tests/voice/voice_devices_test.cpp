@@ -14,7 +14,7 @@
 namespace dance {
 namespace {
 
-TEST(DeviceTroubles, OfTwoDevicesAreSaidOnceEach) {
+TEST(DeviceTroubles, ReportsEachErrorAndEachRecoveryOnce) {
   DeviceTroubles troubles;
   EXPECT_EQ(troubles.take(), "");
   for (int look = 0; look < 3; ++look) {
@@ -22,7 +22,11 @@ TEST(DeviceTroubles, OfTwoDevicesAreSaidOnceEach) {
     troubles.add(VoiceDevice::kMicrophone, "no microphone");
     EXPECT_EQ(troubles.take(), look == 0 ? "no loudspeaker; no microphone" : "");
   }
+  EXPECT_EQ(troubles.take_recoveries(), "");
   troubles.clear(VoiceDevice::kMicrophone);
+  troubles.clear(VoiceDevice::kReference);
+  EXPECT_EQ(troubles.take_recoveries(), "the microphone works again");
+  EXPECT_EQ(troubles.take_recoveries(), "");
   troubles.add(VoiceDevice::kLoudspeaker, "no loudspeaker");
   troubles.add(VoiceDevice::kMicrophone, "no microphone");
   EXPECT_EQ(troubles.take(), "no microphone") << "it had come back";
@@ -81,7 +85,7 @@ TEST_F(VoiceDevicesTest, StreamsGoWhileAnswersOfTheServerAreOnTheirWay) {
   EXPECT_EQ(after_the_end, 0);
 }
 
-TEST_F(VoiceDevicesTest, AServerThatWentIsSaidAndItsDevicesAreGone) {
+TEST_F(VoiceDevicesTest, ReportsASoundServerThatIsGoneAndThatItWorksAgain) {
   VoiceDeviceOptions options;
   options.microphone = "dance.monitor";
   options.loudspeaker = "dance";
@@ -97,16 +101,26 @@ TEST_F(VoiceDevicesTest, AServerThatWentIsSaidAndItsDevicesAreGone) {
     work();
     return frames > 10;
   }));
-  EXPECT_EQ((*devices)->take_trouble(), "");
+  EXPECT_EQ((*devices)->take_errors(), "");
   sound_.reset();
   std::vector<std::string> said;
   EXPECT_TRUE(wait_for([&] {
     work();
-    if (auto trouble = (*devices)->take_trouble(); !trouble.empty()) said.push_back(trouble);
+    if (auto trouble = (*devices)->take_errors(); !trouble.empty()) said.push_back(trouble);
     return !said.empty();
   }));
   EXPECT_FALSE((*devices)->has_microphone() || (*devices)->has_loudspeaker());
   EXPECT_NE(said.at(0).find("no sound server"), std::string::npos) << said.at(0);
+
+  sound_ = std::make_unique<SoundServer>(folder_);
+  ASSERT_TRUE(sound_->is_open());
+  std::string recoveries;
+  EXPECT_TRUE(wait_for([&] {
+    work();
+    recoveries += (*devices)->take_recoveries();
+    return (*devices)->has_microphone() && (*devices)->has_loudspeaker();
+  }));
+  EXPECT_EQ(recoveries, "the sound server works again");
 }
 
 // What another sink plays, as the room's music, comes as the reference where it is named, and what
@@ -141,7 +155,7 @@ TEST(VoiceReference, IsOfTheSinkThatIsNamed) {
     options.reference = reference;
     auto devices = VoiceDevices::open(options, handlers);
     EXPECT_TRUE(devices) << devices.error().what;
-    if (trouble != nullptr) *trouble = (*devices)->take_trouble();
+    if (trouble != nullptr) *trouble = (*devices)->take_errors();
     if (trouble != nullptr) return;
     EXPECT_TRUE(wait_for([&] {
       (*rooms)->work(mono_now());

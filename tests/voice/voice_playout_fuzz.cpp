@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "tests/fuzz_target.h"
 #include "voice/playout/voice_playout.h"
 
 namespace {
@@ -12,7 +13,7 @@ constexpr int kMostSteps = 200;
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(voice_playout) {
   using namespace dance;
   VoicePlayout playout(std::move(*VoiceDecoder::create()));
   MonoTime now = MonoTime::from_us(1'000'000);

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "formats/clip/file_kind.h"
+#include "formats/kind/file_kind.h"
 #include "formats/recording/log_sink.h"
 #include "formats/recording/log_source.h"
 #include "formats/recording/steady_clip.h"
@@ -64,6 +64,8 @@ class Convert : public testing::Test {
                       back = folder_.path("back" + end + ".lcm");
     EXPECT_EQ(convert(kCouple, there, more).exit_code, 0);
     EXPECT_EQ(convert(there, back, more).exit_code, 0);
+    EXPECT_TRUE(is_private(there)) << there;
+    EXPECT_TRUE(is_private(back)) << back;
     return log_at(back);
   }
   TestFolder folder_{"convert"};
@@ -207,7 +209,7 @@ TEST_F(Convert, SaysWhatIsWrongAndTheCure) {
   EXPECT_NE(talk(kCouple, "x.csv", "--guest eve").find("there are bob, alice"), std::string::npos);
   EXPECT_NE(talk("/no/such.mcap", "x.csv").find("/no/such.mcap"), std::string::npos);
   EXPECT_NE(talk(kCouple, "x.csv", "--where stage").find("POSE/stage"), std::string::npos);
-  EXPECT_NE(talk(DANCE_SOURCE_DIR "/README.md", "x.csv").find("what can be read"),
+  EXPECT_NE(talk(DANCE_SOURCE_DIR "/README.md", "x.csv").find("that can be read: .lcm"),
             std::string::npos);
   EXPECT_EQ(convert(kCouple, folder_.path("x.csv"), "--hz -1").exit_code, 2);
 }
@@ -227,6 +229,52 @@ TEST_F(Convert, KeepsWhatIsWholeOfADamagedFileAndExitsWithOne) {
   const nlohmann::json report = nlohmann::json::parse(finished.output, nullptr, false);
   EXPECT_GT(report["frames"].get<int>(), 100);
   EXPECT_LT(report["frames"].get<int>(), 1280);
+}
+
+const std::string kClip = DANCE_SOURCE_DIR "/tests/formats/bvh/data/vrm.bvh";  // 3 frames
+
+TEST_F(Convert, KeepsTheWholeFramesOfACutClipAndExitsWithOne) {
+  const std::string text = text_of(kClip);
+  const std::string cut = folder_.path("cut.bvh"), packed = folder_.path("whole.bvh.xz");
+  std::ofstream(cut, std::ios::binary) << text.substr(0, text.size() - 40);
+  Finished finished = convert(cut, folder_.path("cut.lcm"), "--json");
+  EXPECT_EQ(finished.exit_code, 1);
+  EXPECT_EQ(nlohmann::json::parse(finished.output, nullptr, false)["frames"], 2);
+  EXPECT_NE(finished.talk.find("the file ends in frame 3 of 3; it was cut short"),
+            std::string::npos)
+      << finished.talk;
+
+  ASSERT_EQ(run("xz -zc " + kClip + " > " + packed).exit_code, 0);
+  std::filesystem::resize_file(packed, std::filesystem::file_size(packed) - 9);
+  finished = convert(packed, folder_.path("packed.lcm"), "--json");
+  EXPECT_EQ(finished.exit_code, 1);
+  EXPECT_EQ(nlohmann::json::parse(finished.output, nullptr, false)["frames"], 3);
+  EXPECT_NE(finished.talk.find("the xz file is cut short; copy it again"), std::string::npos)
+      << finished.talk;
+}
+
+TEST_F(Convert, TakesTheUnitAndTheAxisThatAreGiven) {
+  const auto height_m = [&](const std::string& more) {
+    const std::string to = folder_.path("height.lcm");
+    std::filesystem::remove(to);
+    const Finished finished = convert(kClip, to, "--guest alice " + more);
+    EXPECT_EQ(finished.exit_code, 0) << finished.talk;
+    return standing_height_m(log_at(to).find(kAlice)->skeleton());
+  };
+  const float as_it_is_m = height_m("");
+  EXPECT_NEAR(as_it_is_m, 1.72f, 0.2f);
+  EXPECT_NEAR(height_m("--unit dm"), 0.1f * as_it_is_m, 0.02f);
+  EXPECT_NEAR(height_m("--unit m --up y"), as_it_is_m, 0.01f);
+}
+
+TEST_F(Convert, TheViewerShowsAClipAsItIs) {
+  if (!std::filesystem::exists(bin("dance-view"))) GTEST_SKIP() << "the viewer is not built";
+  const Finished viewed =
+      run("ASAN_OPTIONS=detect_leaks=0 " + bin("dance-view") + " " + kClip +
+          " --headless --quality low --size 160x90 --at 0 --out " + folder_.path("clip"));
+  if (viewed.talk.find("EGL") != std::string::npos) GTEST_SKIP() << viewed.talk;
+  EXPECT_EQ(viewed.exit_code, 0) << viewed.talk;
+  EXPECT_TRUE(std::filesystem::exists(folder_.path("clip/stage-0001.png"))) << viewed.talk;
 }
 
 TEST_F(Convert, WritesALogThatTheViewerShows) {

@@ -129,8 +129,7 @@ TEST_F(CrowdPrograms, GoesOnThroughAServersDeathAndEndsBySignal) {
                                              "0", "--churn", "1", "--json", "--server", server()});
   ASSERT_TRUE(wait_for([&] { return sum_of("left") > 0 && sum_of("delivered") > 0; }))
       << text_of(folder_.path("talk"));
-  ::kill(running->pid(), SIGKILL);
-  ASSERT_TRUE(wait_for([&] { return running->has_ended(); }));
+  running->kill_now();
   ASSERT_TRUE(wait_for([&] { return sum_of("lapses") > 0; }));
   running = std::make_unique<ChildProcess>(start_server());
   ASSERT_TRUE(wait_for([&] { return sum_of("reconnects") > 0; }));

@@ -1,5 +1,5 @@
-// The doctor before machines without sound: nobody at the socket, somebody who says nothing, a
-// server without a loudspeaker.
+// The doctor on machines without sound: no server at the socket, one that refuses, one that hangs,
+// one without a loudspeaker.
 #include "apps/doctor/doctor_sound.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,9 @@
 #include <memory>
 
 #include "core/program/child_process.h"
+#include "core/sound/microphone.h"
 #include "tests/apps/run_program.h"
+#include "tests/apps/sound_server.h"
 
 namespace dance {
 namespace {
@@ -66,18 +68,52 @@ TEST_F(DoctorSound, TellsThatNobodyIsThere) {
   EXPECT_TRUE(named.is_named);
 }
 
-TEST_F(DoctorSound, TellsThatWhoIsThereDoesNotLetUsIn) {
+// A socket that listens at a path; -1 where that fails.
+int listen_at(const std::string& path) {
   const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
-  const std::string path = folder_.path("pulse/native");
-  ASSERT_LT(path.size(), sizeof address.sun_path);
+  if (path.size() >= sizeof address.sun_path) return -1;
   std::memcpy(address.sun_path, path.data(), path.size());
-  ASSERT_EQ(bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
-  ASSERT_EQ(listen(fd, 8), 0);
+  const bool is_bound = bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+  return is_bound && listen(fd, 8) == 0 ? fd : -1;
+}
+
+TEST_F(DoctorSound, TellsThatWhoIsThereDoesNotLetUsIn) {
+  const int fd = listen_at(folder_.path("pulse/native"));
+  ASSERT_GE(fd, 0);
+  auto refuser = ChildProcess::start_copy([fd] {
+    for (;;) close(accept(fd, nullptr, nullptr));
+    return 0;
+  });
+  ASSERT_TRUE(refuser) << refuser.error().what;
   EXPECT_EQ(failure().trouble, SoundTrouble::kRefused);
+  refuser->kill_now();
   close(fd);
   EXPECT_EQ(failure().trouble, SoundTrouble::kNoServer) << "what is left of a server is none";
+}
+
+TEST_F(DoctorSound, TellsAServerThatHangsFromOneThatRefuses) {
+  const int fd = listen_at(folder_.path("pulse/native"));
+  ASSERT_GE(fd, 0);
+  const SoundFailure hangs = failure();
+  EXPECT_EQ(hangs.trouble, SoundTrouble::kHangs) << hangs.reason;
+  const auto microphone = default_microphone("test");
+  ASSERT_FALSE(microphone);
+  EXPECT_NE(microphone.error().what.find("the sound server does not answer; restart it"),
+            std::string::npos)
+      << microphone.error().what;
+  close(fd);
+}
+
+TEST_F(DoctorSound, TellsAServerThatStoppedAnswering) {
+  if (!std::filesystem::exists("/usr/bin/pulseaudio"))
+    GTEST_SKIP() << "no pulseaudio: apt-get install pulseaudio";
+  SoundServer sound(folder_);
+  ASSERT_TRUE(sound.is_open());
+  sound.suspend();
+  EXPECT_EQ(failure().trouble, SoundTrouble::kHangs);
+  sound.resume();
 }
 
 TEST_F(DoctorSound, TellsThatTheServerHasNoLoudspeaker) {

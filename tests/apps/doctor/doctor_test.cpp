@@ -13,20 +13,34 @@ namespace {
 
 using Grade = Finding::Grade;
 
-TEST(Doctor, IsContentWithMulticastOverLoopback) {
-  EXPECT_EQ(check_multicast_device("lo", false).grade, Grade::kOk);
+TEST(Doctor, FindsMulticastOverLoopbackRightForLcmsPrograms) {
+  EXPECT_EQ(check_multicast_device("lo").grade, Grade::kOk);
 }
 
-TEST(Doctor, WarnsOfABusThatRidesOnANetworkCardAndNamesTheCure) {
-  const Finding finding = check_multicast_device("eth0", false);
+TEST(Doctor, NotesThatLcmsProgramsFollowARouteOverANetworkCard) {
+  const Finding finding = check_multicast_device("eth0");
   EXPECT_EQ(finding.grade, Grade::kNote);
   EXPECT_NE(finding.what.find("eth0"), std::string::npos);
   EXPECT_EQ(finding.cure, "ip route add 224.0.0.0/4 dev lo");
 }
 
-TEST(Doctor, CallsItAProblemOnlyWhereNothingHelps) {
-  EXPECT_EQ(check_multicast_device("", true).grade, Grade::kNote);
-  EXPECT_EQ(check_multicast_device("", false).grade, Grade::kProblem);
+TEST(Doctor, NotesThatOnlyLcmsProgramsNeedARoute) {
+  const Finding finding = check_multicast_device("");
+  EXPECT_EQ(finding.grade, Grade::kNote);
+  EXPECT_NE(finding.what.find("dance needs no route"), std::string::npos);
+  EXPECT_EQ(finding.cure, "ip route add 224.0.0.0/4 dev lo");
+}
+
+TEST(Doctor, PrintsTheFirewallRuleForThePortOfTheBus) {
+  const Finding finding = check_bus_exposure(*parse_udpm_url("udpm://239.255.76.67:7668?ttl=0"));
+  EXPECT_TRUE(finding.cure.starts_with("nft '")) << finding.cure;
+  EXPECT_NE(finding.cure.find("udp dport 7668 "), std::string::npos) << finding.cure;
+}
+
+TEST(Doctor, AdvisesTtlZeroForABusThatIsOpenToTheNetwork) {
+  const Finding finding = check_bus_exposure(*parse_udpm_url("udpm://239.255.76.67:7667?ttl=1"));
+  EXPECT_EQ(finding.grade, Grade::kNote);
+  EXPECT_NE(finding.cure.find("?ttl=0"), std::string::npos) << finding.cure;
 }
 
 TEST(Doctor, NotesSmallSocketBuffers) {
@@ -107,6 +121,9 @@ TEST(Doctor, TellsWhyThereIsNoSoundAndTheCureOfEach) {
   failure.is_named = true;
   expect(SoundTrouble::kNoServer, "nobody is at", "unset PULSE_SERVER");
   expect(SoundTrouble::kNotYours, "another user's", "stat -c %U /run/user/1000/pulse/native");
+  expect(SoundTrouble::kHangs, "hangs: it accepts us and does not answer", "pulseaudio --kill");
+  failure.installed_server = "pipewire-pulse";
+  expect(SoundTrouble::kHangs, "hangs", "systemctl --user restart pipewire pipewire-pulse");
   expect(SoundTrouble::kRefused, "does not let us in", "PULSE_COOKIE");
   failure.reason = "No such entity";
   expect(SoundTrouble::kNoLoudspeaker, "no loudspeaker (No such entity)", "module-udev-detect");

@@ -11,6 +11,7 @@
 #include <memory>
 #include <thread>
 
+#include "core/program/child_process.h"
 #include "tests/apps/bus_programs.h"
 #include "tests/clients/engine/staged_poses.h"
 
@@ -77,7 +78,7 @@ class EngineClients : public BusPrograms {
   }
 
   // The client reads for so long, and the house is killed and comes back in the middle of it.
-  Comparison read_by(const std::string& command, dance_axes axes) {
+  StagedPoseComparison read_by(const std::string& command, dance_axes axes) {
     const double seconds = client_seconds();
     auto client = ChildProcess::start(
         {"/bin/sh",
@@ -92,8 +93,7 @@ class EngineClients : public BusPrograms {
     // Blender takes its time to start.
     listen_until([&] { return client->has_ended() || lines() >= 4 * kFewest; }, 60.0);
     listen_until([&] { return client->has_ended(); }, 0.4 * seconds);
-    kill(house_->pid(), SIGKILL);
-    EXPECT_TRUE(house_->wait(Duration::s(10)));
+    house_->kill_now();
     bus_->drain(mono_now());
     staged_->mark();
     house_ = open();
@@ -112,7 +112,7 @@ class EngineClients : public BusPrograms {
            text_of(folder_.path("client.out")).substr(0, 500);
   }
 
-  void expect_alike(const Comparison& read) const {
+  void expect_alike(const StagedPoseComparison& read) const {
     EXPECT_LT(read.furthest_mm, kFurthest_mm);
     EXPECT_EQ(read.unreadable, 0);
     int all = 0;
@@ -157,7 +157,8 @@ TEST_F(EngineClients, CSharpHasTheDancersOnARigOfItsOwnAndMakesNoGarbage) {
           DANCE_SOURCE_DIR "/tests/clients/engine/ReadDancers.cs " DANCE_SOURCE_DIR
                            "/bindings/csharp/*.cs 2>&1");
   ASSERT_EQ(compiled.exit_code, 0) << compiled.output;
-  const Comparison read = read_by("mono " + folder_.path("ReadDancers.exe"), DANCE_AXES_UNITY);
+  const StagedPoseComparison read =
+      read_by("mono " + folder_.path("ReadDancers.exe"), DANCE_AXES_UNITY);
   expect_alike(read);
   EXPECT_EQ(read.collections, 0);
 }

@@ -42,7 +42,7 @@ StagedPoses::StagedPoses(Bus& bus) {
 void StagedPoses::mark() { marked_ = newest_; }
 
 bool StagedPoses::compare_pose(const std::string& line, dance_axes axes,
-                               Comparison& comparison) const {
+                               StagedPoseComparison& comparison) const {
   std::istringstream words(line);
   std::string word, guest;
   std::uint32_t sequence = 0;
@@ -67,8 +67,8 @@ bool StagedPoses::compare_pose(const std::string& line, dance_axes axes,
   return true;
 }
 
-Comparison StagedPoses::compare(const std::string& client_output, dance_axes axes) const {
-  Comparison comparison;
+StagedPoseComparison StagedPoses::compare(const std::string& client_output, dance_axes axes) const {
+  StagedPoseComparison comparison;
   std::istringstream lines(client_output);
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("pose ")) {

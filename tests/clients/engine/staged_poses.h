@@ -19,7 +19,7 @@
 
 namespace dance {
 
-struct Comparison {
+struct StagedPoseComparison {
   std::map<std::string, int> poses;              // compared, of each guest
   std::map<std::string, int> poses_after;        // of these, those staged after mark()
   int unheard = 0;                               // not heard here, as the bus may lose some
@@ -37,11 +37,12 @@ class StagedPoses {
   void mark();
   std::size_t size() const { return staged_.size(); }
   bool has_skeletons_of(std::size_t guests) const { return skeletons_.size() >= guests; }
-  Comparison compare(const std::string& client_output, dance_axes axes) const;
+  StagedPoseComparison compare(const std::string& client_output, dance_axes axes) const;
 
  private:
   using Places = std::array<Eigen::Vector3f, kBoneCount>;
-  bool compare_pose(const std::string& line, dance_axes axes, Comparison& comparison) const;
+  bool compare_pose(const std::string& line, dance_axes axes,
+                    StagedPoseComparison& comparison) const;
 
   std::map<std::string, Skeleton> skeletons_;
   std::map<std::pair<std::string, std::uint32_t>, Places> staged_;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "core/program/child_process.h"
 #include "tests/apps/bus_programs.h"
 
 namespace dance {
@@ -80,7 +81,7 @@ TEST_F(McapClient, KeepsWhatAKilledRecorderHadWritten) {
     const auto size = std::filesystem::file_size(mcap, unknown);
     return !unknown && size > 400'000;
   }));
-  ASSERT_EQ(kill(recorder.pid(), SIGKILL), 0);
+  ASSERT_TRUE(recorder.send_signal(SIGKILL));
   const Finished converted =
       run(bin("dance-convert") + " " + mcap + " " + folder_.path("killed.lcm") + " --json");
   EXPECT_EQ(converted.exit_code, 0) << converted.talk;

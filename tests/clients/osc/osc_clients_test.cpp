@@ -127,7 +127,7 @@ struct Compared {
 };
 
 TEST_F(OscClients, OfNodeReadEveryFrameOfACoupleAndSeeTheSameDance) {
-  if (!has_node()) GTEST_SKIP() << "no node, or no npm packages: ./dance test fetches them";
+  if (!has_node()) GTEST_SKIP() << "no node, or no npm packages: ./dance test --long fetches them";
   open_couple();
   const std::string output =
       run_client("/usr/bin/env", {"node", kScripts + "read_osc.mjs", kModules, seconds_to_run(),
@@ -228,7 +228,7 @@ TEST_F(OscClients, OscdumpOfLibloReadsEveryMessage) {
 }
 
 TEST_F(OscClients, APerformerWrittenWithNodeComesInAsADancer) {
-  if (!has_node()) GTEST_SKIP() << "no node, or no npm packages: ./dance test fetches them";
+  if (!has_node()) GTEST_SKIP() << "no node, or no npm packages: ./dance test --long fetches them";
   bus_ = *Bus::open(kBus);
   Skeleton skeleton;
   std::vector<Pose> poses;

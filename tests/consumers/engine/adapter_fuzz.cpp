@@ -15,6 +15,7 @@
 #include "formats/engine/segment_writer.h"
 #include "formats/engine/shared_memory.h"
 #include "tests/formats/engine/stored_poses.h"
+#include "tests/fuzz_target.h"
 
 namespace {
 
@@ -101,7 +102,7 @@ void read_all(dance_adapter* adapter) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(engine_memory) {
   static House house;
   auto* bytes = reinterpret_cast<unsigned char*>(&house.memory->segment());
   const std::size_t patches = std::min(size / kPatchBytes, kMostPatches);

@@ -60,10 +60,11 @@ TEST_F(EnginePrograms, AnEngineSeesADancerOfTheBusMoveAndLeave) {
     }
     for (const std::int64_t ahead_ns : {-60'000'000, 0})
       if (at(adapter, slot, now_ns() + ahead_ns, &pose) == DANCE_OK) ++kinds[pose.kind];
-    return seen.size() > 30;
-  }));
-  EXPECT_GT(kinds[DANCE_POSE_INTERPOLATED], 0);
-  EXPECT_GT(kinds[DANCE_POSE_PREDICTED], 0);
+    return seen.size() > 30 && kinds[DANCE_POSE_INTERPOLATED] > 0 &&
+           kinds[DANCE_POSE_PREDICTED] > 0;
+  })) << seen.size()
+      << " poses, " << kinds[DANCE_POSE_INTERPOLATED] << " interpolated, "
+      << kinds[DANCE_POSE_PREDICTED] << " predicted";
   dance_skeleton body{};
   body.struct_size = sizeof body;
   auto* skeleton = call<decltype(dance_adapter_skeleton)>("dance_adapter_skeleton");

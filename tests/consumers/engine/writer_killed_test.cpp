@@ -1,8 +1,6 @@
 // A house that is killed and started again, again and again, while an engine reads.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -13,6 +11,7 @@
 #include "consumers/engine/dance_adapter.h"
 #include "consumers/engine/engine_consumer.h"
 #include "core/net/mono_clock.h"
+#include "core/program/child_process.h"
 
 namespace dance {
 namespace {
@@ -73,7 +72,6 @@ constexpr Duration kHangs = Duration::s(2);
 
 // Writes as fast as it can until it is killed.
 [[noreturn]] void live_and_write(const std::string& memory, std::uint32_t life) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
   auto consumer = EngineConsumer::open(memory, 0.0, this_clock_id(), mono_now());
   if (!consumer) _exit(3);
   const GuestId alice = *GuestId::parse("alice");
@@ -93,9 +91,8 @@ TEST(WriterKilled, AReaderGoesOnAfterEachOfAHundredDeaths) {
   std::uint64_t torn = 0, fine = 0, unsound = 0;
   LongestCall timed;
   for (std::uint32_t life = 1; life <= kLives; ++life) {
-    const pid_t writer = fork();
-    if (writer == 0) live_and_write(memory, life);
-    ASSERT_GT(writer, 0);
+    auto writer = ChildProcess::start_copy([&]() -> int { live_and_write(memory, life); });
+    ASSERT_TRUE(writer) << writer.error().what;
     // Until it was seen, and some poses more; then it dies wherever it is.
     std::uint32_t seen = 0;
     const MonoTime give_up = mono_now() + Duration::s(60);
@@ -123,10 +120,8 @@ TEST(WriterKilled, AReaderGoesOnAfterEachOfAHundredDeaths) {
       if (is_newest && !is_whole(pose)) ++torn;
       if (pose.sequence / 1'000'000 == life) ++seen;
     }
-    kill(writer, SIGKILL);
-    int status = 0;
-    ASSERT_EQ(waitpid(writer, &status, 0), writer);
-    ASSERT_TRUE(WIFSIGNALED(status)) << "the writer could not have the memory again";
+    writer->kill_now();
+    ASSERT_EQ(writer->end_signal(), SIGKILL) << "the writer could not have the memory again";
     // What it left is read too: nobody waits for a dead one.
     for (int i = 0; i < 50; ++i) {
       std::uint32_t slot = 0;

@@ -13,10 +13,10 @@
 namespace dance {
 namespace {
 
-const GuestId kAlice = *GuestId::parse("alice");
-const GuestId kBob = *GuestId::parse("bob");
+const GuestId kOscAlice = *GuestId::parse("alice");
+const GuestId kOscBob = *GuestId::parse("bob");
 
-MonoTime at_ms(std::int64_t ms) { return MonoTime::from_us(4'000'000) + Duration::ms(ms); }
+MonoTime osc_time(std::int64_t ms) { return MonoTime::from_us(4'000'000) + Duration::ms(ms); }
 
 class OscConsumers : public testing::Test {
  protected:
@@ -28,9 +28,9 @@ class OscConsumers : public testing::Test {
   }
   void dance(const GuestId& guest, std::int64_t ms, std::uint64_t clock_id = 1) {
     Pose pose;
-    pose.capture_time = at_ms(ms);
+    pose.capture_time = osc_time(ms);
     pose.clock_id = clock_id;
-    consumer_->on_pose(guest, pose, at_ms(ms + 5));
+    consumer_->on_pose(guest, pose, osc_time(ms + 5));
   }
   std::vector<DecodedOsc> heard() {
     std::vector<DecodedOsc> all;
@@ -52,12 +52,12 @@ class OscConsumers : public testing::Test {
 
 TEST_F(OscConsumers, SendAVmcFrameInTheCallThatBringsThePose) {
   open("vmc");
-  consumer_->on_skeleton(kAlice, average_skeleton(1.5f), at_ms(0));
+  consumer_->on_skeleton(kOscAlice, average_skeleton(1.5f), osc_time(0));
   Hands hands;
   hands.presence = 1;
   hands.R_PB[0] = Eigen::Quaternionf(0.8f, 0.6f, 0.0f, 0.0f);
-  consumer_->on_hands(kAlice, hands, at_ms(0));
-  dance(kAlice, 0);
+  consumer_->on_hands(kOscAlice, hands, osc_time(0));
+  dance(kOscAlice, 0);
   const auto all = heard();
   EXPECT_EQ(only(all, "/VMC/Ext/Bone/Pos").size(), 55u);
   ASSERT_EQ(only(all, "/VMC/Ext/VRM").size(), 1u);
@@ -82,41 +82,41 @@ TEST_F(OscConsumers, FingersThatNoLongerComeAreNotSentOn) {
       if (bone.texts[0] == "LeftThumbProximal") return bone.floats[3];
     return 0.0f;
   };
-  consumer_->on_hands(kAlice, hands, at_ms(0));
-  dance(kAlice, 0);
+  consumer_->on_hands(kOscAlice, hands, osc_time(0));
+  dance(kOscAlice, 0);
   EXPECT_FLOAT_EQ(thumb_x(), 0.6f);
-  dance(kAlice, 1900);
+  dance(kOscAlice, 1900);
   EXPECT_FLOAT_EQ(thumb_x(), 0.6f);
-  dance(kAlice, 2100);
+  dance(kOscAlice, 2100);
   EXPECT_FLOAT_EQ(thumb_x(), 0.0f);
-  consumer_->on_hands(kAlice, hands, at_ms(2200));
-  dance(kAlice, 2200);
+  consumer_->on_hands(kOscAlice, hands, osc_time(2200));
+  dance(kOscAlice, 2200);
   EXPECT_FLOAT_EQ(thumb_x(), 0.6f);
   hands.presence = 0;
-  consumer_->on_hands(kAlice, hands, at_ms(2210));
-  dance(kAlice, 2220);
+  consumer_->on_hands(kOscAlice, hands, osc_time(2210));
+  dance(kOscAlice, 2220);
   EXPECT_FLOAT_EQ(thumb_x(), 0.0f);
 }
 
 TEST_F(OscConsumers, TellThatTheDancerIsSilentAndThatTheyAreBack) {
   open("vmc");
-  consumer_->on_second(at_ms(0));
+  consumer_->on_second(osc_time(0));
   auto states = only(heard(), "/VMC/Ext/OK");
   ASSERT_EQ(states.size(), 1u);
   EXPECT_EQ(states[0].ints, (std::vector<int>{0, 0, 0, 0}));  // nobody yet
-  dance(kAlice, 100);
-  consumer_->on_second(at_ms(1000));
+  dance(kOscAlice, 100);
+  consumer_->on_second(osc_time(1000));
   states = only(heard(), "/VMC/Ext/OK");
   ASSERT_EQ(states.size(), 1u);
   EXPECT_EQ(states[0].ints, (std::vector<int>{1, 3, 0, 1}));
-  consumer_->on_second(at_ms(2000));
-  consumer_->on_second(at_ms(3000));
+  consumer_->on_second(osc_time(2000));
+  consumer_->on_second(osc_time(3000));
   const auto in_silence = heard();
   states = only(in_silence, "/VMC/Ext/OK");
   ASSERT_EQ(states.size(), 2u);
   EXPECT_EQ(states[1].ints, (std::vector<int>{1, 3, 0, 0}));
   EXPECT_EQ(in_silence.size(), 4u);  // and the time
-  dance(kAlice, 3100);
+  dance(kOscAlice, 3100);
   const auto back = heard();
   EXPECT_EQ(only(back, "/VMC/Ext/OK")[0].ints, (std::vector<int>{1, 3, 0, 1}));
   EXPECT_NEAR(only(back, "/VMC/Ext/T")[0].floats[0], 3.0f, 1e-4f);
@@ -128,18 +128,18 @@ TEST_F(OscConsumers, TellThatTheDancerIsSilentAndThatTheyAreBack) {
 TEST_F(OscConsumers, SendOneGuestTheOneAskedForOrTheFirst) {
   for (const char* name : {"vmc", "vrchat"}) {
     open(name);
-    dance(kBob, 0);
+    dance(kOscBob, 0);
     heard();
-    dance(kAlice, 10);
+    dance(kOscAlice, 10);
     EXPECT_TRUE(heard().empty()) << name;
     EXPECT_NE(consumer_->summary().find("1 poses of other guests left out"), std::string::npos)
         << consumer_->summary();
     ConsumerOptions options;
-    options.guest = kAlice;
+    options.guest = kOscAlice;
     open(name, options);
-    dance(kBob, 20);
+    dance(kOscBob, 20);
     EXPECT_TRUE(heard().empty()) << name;
-    dance(kAlice, 30);
+    dance(kOscAlice, 30);
     EXPECT_FALSE(heard().empty()) << name;
   }
 }
@@ -149,7 +149,7 @@ TEST_F(OscConsumers, KeepTheRateByCaptureTime) {
   options.hz = 30.0;
   for (const char* name : {"vmc", "vrchat"}) {
     open(name, options);
-    for (int i = 0; i < 120; ++i) dance(kAlice, i * 1000 / 120);
+    for (int i = 0; i < 120; ++i) dance(kOscAlice, i * 1000 / 120);
     const auto frames = only(
         heard(), name == std::string("vmc") ? "/VMC/Ext/T" : "/tracking/trackers/head/position");
     EXPECT_NEAR(static_cast<double>(frames.size()), 30.0, 1.0) << name;
@@ -158,14 +158,14 @@ TEST_F(OscConsumers, KeepTheRateByCaptureTime) {
 
 TEST_F(OscConsumers, KeepTimeRunningOnWhenADancerComesOfAnotherClock) {
   open("vmc");
-  dance(kAlice, 0);
-  dance(kAlice, 500);
+  dance(kOscAlice, 0);
+  dance(kOscAlice, 500);
   Pose pose;
   pose.clock_id = 2;
   pose.capture_time = MonoTime::from_us(77);
-  consumer_->on_pose(kAlice, pose, at_ms(525));
+  consumer_->on_pose(kOscAlice, pose, osc_time(525));
   pose.capture_time += Duration::ms(20);
-  consumer_->on_pose(kAlice, pose, at_ms(545));
+  consumer_->on_pose(kOscAlice, pose, osc_time(545));
   const auto times = only(heard(), "/VMC/Ext/T");
   ASSERT_EQ(times.size(), 4u);
   EXPECT_NEAR(times[1].floats[0], 0.5f, 1e-4f);
@@ -175,8 +175,8 @@ TEST_F(OscConsumers, KeepTimeRunningOnWhenADancerComesOfAnotherClock) {
 
 TEST_F(OscConsumers, SendVrchatItsTrackersInOnePacket) {
   open("vrchat");
-  consumer_->on_skeleton(kAlice, average_skeleton(1.5f), at_ms(0));
-  dance(kAlice, 0);
+  consumer_->on_skeleton(kOscAlice, average_skeleton(1.5f), osc_time(0));
+  dance(kOscAlice, 0);
   const auto packets = socket_.receive();
   ASSERT_EQ(packets.size(), 1u);
   EXPECT_EQ(decode_osc(packets[0].bytes).size(), 18u);
@@ -189,10 +189,10 @@ TEST_F(OscConsumers, AllocateNothingPerPose) {
     open(name);
     const AllocationGuard guard;
     for (int i = 0; i < 50; ++i) {
-      consumer_->on_skeleton(kAlice, average_skeleton(), at_ms(i));
-      consumer_->on_hands(kAlice, Hands(), at_ms(i));
-      dance(kAlice, i * 20);
-      consumer_->on_second(at_ms(i * 20));
+      consumer_->on_skeleton(kOscAlice, average_skeleton(), osc_time(i));
+      consumer_->on_hands(kOscAlice, Hands(), osc_time(i));
+      dance(kOscAlice, i * 20);
+      consumer_->on_second(osc_time(i * 20));
     }
     EXPECT_EQ(guard.allocations(), 0u) << name;
   }
@@ -202,7 +202,7 @@ TEST_F(OscConsumers, GoOnWhereNobodyListensAndSaySo) {
   ConsumerOptions options;
   options.address = "127.0.0.1:" + std::to_string(*free_loopback_port());
   consumer_ = *make_consumer("vmc", options);
-  for (int i = 0; i < 5; ++i) dance(kAlice, i * 20);
+  for (int i = 0; i < 5; ++i) dance(kOscAlice, i * 20);
   EXPECT_NE(consumer_->summary().find("refused, as no program listens there"), std::string::npos)
       << consumer_->summary();
   options.address = "no.such.host.invalid:39539";

@@ -1,4 +1,4 @@
-// Buses for tests, over real LCM in a private network.
+// Buses for tests, in a private network.
 //
 // Ownership: plain functions.
 // Threads:   one.
@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <sys/socket.h>
 
+#include <fstream>
 #include <memory>
 #include <string>
 
@@ -17,6 +19,19 @@
 namespace dance {
 
 constexpr const char* kUrl = "udpm://239.255.76.67:17667?ttl=0";
+
+// The socket that receives, for its options: one of those that the bus's descriptor waits for.
+inline int receive_socket_of(const Bus& bus) {
+  std::ifstream waits_for("/proc/self/fdinfo/" + std::to_string(bus.fd()));
+  for (std::string word; waits_for >> word;) {
+    int fd = -1, domain = 0;
+    socklen_t size = sizeof domain;
+    if (word == "tfd:" && waits_for >> fd &&
+        getsockopt(fd, SOL_SOCKET, SO_DOMAIN, &domain, &size) == 0 && domain == AF_INET)
+      return fd;
+  }
+  return -1;
+}
 
 inline GuestId guest(const std::string& name) { return *GuestId::parse(name); }
 inline Channel capture_of(const std::string& name) {

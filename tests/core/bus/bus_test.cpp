@@ -1,7 +1,8 @@
-// The bus as programs use it, over real LCM in a private network.
+// The bus as programs use it, in a private network.
 #include "core/bus/bus.h"
 
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 
 #include <map>
 #include <string>
@@ -228,6 +229,23 @@ TEST(Bus, RawNewestHandsOnTheLastOfEachChannel) {
   EXPECT_EQ(last, (std::map<std::string, std::uint8_t>{{"ROBOT/left", 99}, {"ROBOT/right", 99}}));
   EXPECT_EQ(receiver->counters().received, 200u);
   EXPECT_EQ(receiver->counters().superseded, 200u - calls);
+}
+
+TEST(Bus, LeavesTimeForOthersAfterABoundedNumberOfMessages) {
+  const auto sender = open_bus(), receiver = open_bus();
+  int room_bytes = 0;
+  socklen_t size = sizeof room_bytes;
+  ASSERT_EQ(getsockopt(receive_socket_of(*receiver), SOL_SOCKET, SO_RCVBUF, &room_bytes, &size), 0);
+  if (room_bytes < 4 << 20) GTEST_SKIP() << "net.core.rmem_max allows no buffer for 2,000 messages";
+  std::size_t received = 0;
+  receiver->on_anything([&](std::string_view, const void*, std::size_t, MonoTime) { ++received; });
+  constexpr std::size_t kSent = 2000;
+  for (std::size_t i = 0; i < kSent; ++i) sender->publish_raw("LIGHT/desk", "on", 2);
+  receiver->drain(mono_now());
+  EXPECT_GT(received, 0u);
+  EXPECT_LE(received, Bus::kMessagesPerTurn);
+  drain_until(*receiver, [&] { return received == kSent; });
+  EXPECT_EQ(received, kSent) << "the rest stays pending";
 }
 
 TEST(Bus, ThirtyGuestsAtSixtyHertzLoseNothing) {

@@ -6,6 +6,7 @@
 #include "core/base/assert.h"
 #include "core/bus/channel.h"
 #include "core/bus/encode.h"
+#include "tests/fuzz_target.h"
 
 namespace {
 
@@ -21,7 +22,7 @@ void try_decode(const std::uint8_t* data, std::size_t size) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(bus_decode) {
   dance::for_each_message_type([&]<class Message>() { try_decode<Message>(data, size); });
   const std::string_view name(reinterpret_cast<const char*>(data), size);
   if (const auto channel = dance::Channel::parse(name)) DANCE_ASSERT(channel->view() == name);

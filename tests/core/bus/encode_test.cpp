@@ -14,7 +14,7 @@
 namespace dance {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // Where fields stand in an encoded pose_t: fingerprint, then the fields of the .lcm file.
@@ -124,7 +124,7 @@ TEST(Encode, HandsSkeletonStatusStatsAndStageTimeRoundTrip) {
 }
 
 TEST(Decode, RotationsThatAreNotUnitAreInvalid) {
-  for (const float bad : {kNan, kInfinity, -kInfinity, 1e30f, 2.0f})
+  for (const float bad : {kNotANumber, kInfinity, -kInfinity, 1e30f, 2.0f})
     for (std::size_t component = 0; component < 4 * kBoneCount; ++component)
       EXPECT_EQ(decode_changed([&](MessageBuffer& buffer) {
                   put_big_endian(buffer, kPoseRotations + 4 * component, bad);
@@ -146,7 +146,7 @@ TEST(Decode, RotationsWithinOnePercentOfUnitAreMadeUnit) {
 }
 
 TEST(Decode, PlacesOffTheStageAreInvalid) {
-  for (const float bad : {kNan, kInfinity, 1e9f, -1001.0f})
+  for (const float bad : {kNotANumber, kInfinity, 1e9f, -1001.0f})
     for (std::size_t axis = 0; axis < 3; ++axis)
       EXPECT_EQ(decode_changed([&](MessageBuffer& buffer) {
                   put_big_endian(buffer, kPoseHips + 4 * axis, bad);
@@ -156,7 +156,7 @@ TEST(Decode, PlacesOffTheStageAreInvalid) {
 }
 
 TEST(Decode, ConfidenceOutsideItsRangeIsInvalid) {
-  for (const float bad : {kNan, -0.01f, 1.01f, kInfinity})
+  for (const float bad : {kNotANumber, -0.01f, 1.01f, kInfinity})
     EXPECT_EQ(decode_changed(
                   [&](MessageBuffer& buffer) { put_big_endian(buffer, kPoseConfidence, bad); }),
               Decoded::kInvalid)

@@ -29,6 +29,10 @@ InterestWish golden_interest() {
   return wish;
 }
 
+RecordingState golden_recording() {
+  return {kCaptured, kClock, static_cast<std::uint64_t>(-3), true};
+}
+
 VoiceLevel golden_voice_level() { return {kCaptured, kClock, -23, -31}; }
 
 Face golden_face() {
@@ -42,20 +46,32 @@ Face golden_face() {
   return face;
 }
 
+Chat golden_chat() {
+  Chat chat{kCaptured, kClock, ChatKind::kLine, {}};
+  EXPECT_TRUE(
+      chat.text.assign("\xc2\xbf"
+                       "Bailas? \xf0\x9f\x92\x83"));
+  return chat;
+}
+
 TEST(GoldenHouse, IsWrittenAndReadByteForByte) {
+  expect_golden("chat_t", golden_chat());
   expect_golden("house_link_t", golden_house_link());
   expect_golden("removal_t", golden_removal());
   expect_golden("voice_level_t", golden_voice_level());
   expect_golden("interest_t", golden_interest());
+  expect_golden("recording_t", golden_recording());
   expect_golden("face_t", golden_face());
 }
 
 TEST(GoldenHouse, SurvivesDamage) {
+  expect_survives_bit_flips<Chat>("chat_t");
   expect_survives_bit_flips<Face>("face_t");
   expect_survives_bit_flips<HouseLink>("house_link_t");
   expect_survives_bit_flips<Removal>("removal_t");
   expect_survives_bit_flips<VoiceLevel>("voice_level_t");
   expect_survives_bit_flips<InterestWish>("interest_t");
+  expect_survives_bit_flips<RecordingState>("recording_t");
 }
 
 TEST(GoldenHouse, TakesOnlyWhatTheTablesOfLinkAndRemovalHave) {
@@ -65,7 +81,7 @@ TEST(GoldenHouse, TakesOnlyWhatTheTablesOfLinkAndRemovalHave) {
     return decode(bytes.data(), bytes.size(), decoded);
   };
   HouseLink link = golden_house_link();
-  link.trouble = static_cast<HouseLinkTrouble>(7);
+  link.trouble = static_cast<HouseLinkTrouble>(9);
   EXPECT_EQ(outcome_of(link), Decoded::kInvalid);
   link = golden_house_link();
   link.verdict = static_cast<RemovalVerdict>(-1);
@@ -82,6 +98,34 @@ TEST(GoldenHouse, TakesOnlyWhatTheTablesOfLinkAndRemovalHave) {
   VoiceLevel level = golden_voice_level();
   level.level_dbfs = 3;
   EXPECT_EQ(outcome_of(level), Decoded::kInvalid) << "louder than full scale";
+}
+
+TEST(GoldenHouse, DecodesOnlyValidChat) {
+  const auto outcome_of = [](std::string_view text, ChatKind kind = ChatKind::kLine) {
+    Chat chat{kCaptured, kClock, kind, {}};
+    EXPECT_TRUE(chat.text.assign(text));
+    const Bytes bytes = encoded(chat);
+    return decode(bytes.data(), bytes.size(), chat);
+  };
+  const auto repeated = [](std::string_view text, int times) {
+    std::string all;
+    for (int i = 0; i < times; ++i) all += text;
+    return all;
+  };
+  EXPECT_EQ(outcome_of("hola"), Decoded::kFine);
+  EXPECT_EQ(outcome_of(repeated("\xc3\xb1", 200)), Decoded::kFine) << "200 characters of two bytes";
+  EXPECT_EQ(outcome_of(repeated("x", 201)), Decoded::kInvalid) << "too many characters";
+  for (const char* bad :
+       {"", "   ", "a\nb", "a\x1b[2J", "a\x7f",
+        "\xe2\x80\xae"
+        "abc",
+        "\xe2\x81\xa6", "\xd8\x9c", "\xef\xbb\xbf", "\xc0\xaf", "\xed\xa0\x80", "\xff", "abc\xc3"})
+    EXPECT_EQ(outcome_of(bad), Decoded::kInvalid) << bad;
+  EXPECT_EQ(outcome_of("", ChatKind::kHeart), Decoded::kFine);
+  EXPECT_EQ(outcome_of("", ChatKind::kApplause), Decoded::kFine);
+  EXPECT_EQ(outcome_of("x", ChatKind::kHeart), Decoded::kInvalid) << "signs have no text";
+  EXPECT_EQ(outcome_of("", static_cast<ChatKind>(3)), Decoded::kInvalid);
+  EXPECT_EQ(outcome_of("", static_cast<ChatKind>(-1)), Decoded::kInvalid);
 }
 
 }  // namespace

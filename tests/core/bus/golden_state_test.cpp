@@ -32,6 +32,28 @@ Music golden_music() {
   return music;
 }
 
+Profile golden_profile() {
+  auto profile = stamped<Profile>();
+  profile.shown_name = *parse_shown_name("Zo\u00eb d\u2019\u00c5ngstr\u00f6m \u821e");
+  profile.is_recording = true;
+  profile.is_host = true;
+  return profile;
+}
+
+RoomSong golden_song() {
+  auto song = stamped<RoomSong>();
+  song.start_time = MonoTime::from_us(1'234'567'000'000);
+  song.start_beat = 1032;
+  song.seed = 0x89abcdef;
+  song.style = 5;
+  song.playing = true;
+  song.locked = true;
+  song.tempo_count = 3;
+  song.tempo_bar = {0, 8, 24};
+  song.tempo_centi_bpm = {13250, 9000, 14001};
+  return song;
+}
+
 Scene golden_scene() {
   auto scene = stamped<Scene>();
   scene.name = *SceneName::parse("old-mill");
@@ -163,6 +185,8 @@ Haptic golden_haptic() {
 
 TEST(GoldenState, IsWrittenAndReadByteForByte) {
   expect_golden("music_t", golden_music());
+  expect_golden("song_t", golden_song());
+  expect_golden("profile_t", golden_profile());
   expect_golden("scene_t", golden_scene());
   expect_golden("avatar_t", golden_avatar());
   expect_golden("avatar_file_t", golden_avatar_file());
@@ -178,6 +202,8 @@ TEST(GoldenState, IsWrittenAndReadByteForByte) {
 
 TEST(GoldenState, SurvivesEverySingleBitFlip) {
   expect_survives_bit_flips<Music>("music_t");
+  expect_survives_bit_flips<RoomSong>("song_t");
+  expect_survives_bit_flips<Profile>("profile_t");
   expect_survives_bit_flips<Scene>("scene_t");
   expect_survives_bit_flips<Avatar>("avatar_t");
   expect_survives_bit_flips<AvatarFile>("avatar_file_t");
@@ -193,7 +219,7 @@ TEST(GoldenState, SurvivesEverySingleBitFlip) {
 
 TEST(GoldenState, IsSmallEnoughForTheTunnel) {
   for (const char* type :
-       {"music_t", "scene_t", "avatar_t", "avatar_file_t", "style_t", "placement_t"})
+       {"music_t", "song_t", "scene_t", "avatar_t", "avatar_file_t", "style_t", "placement_t"})
     EXPECT_LE(read_golden(type).size(), 400u) << type;
 }
 
@@ -230,8 +256,9 @@ TEST(DecodeState, CallsImpossibleValuesInvalid) {
                          m.start_time = MonoTime::from_ns(std::numeric_limits<std::int64_t>::max());
                        }),
             invalid);
-  for (const char* title : {"\x1b[2J", "a\nb", "\xff", "\xc3", "\xc0\x80", "\xed\xa0\x80",
-                            "\xf4\x90\x80\x80", "\xc2\x9b", "\x7f"})
+  for (const char* title :
+       {"\x1b[2J", "a\nb", "\xff", "\xc3", "\xc0\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80",
+        "\xc2\x9b", "\x7f", "\u202egpj.song", "a\u2066b", "a\u200fb"})
     EXPECT_EQ(outcome_of(golden_music(), [&](Music& m) { EXPECT_TRUE(m.title.assign(title)); }),
               invalid)
         << title;
@@ -239,6 +266,26 @@ TEST(DecodeState, CallsImpossibleValuesInvalid) {
     EXPECT_EQ(outcome_of(golden_music(), [&](Music& m) { EXPECT_TRUE(m.title.assign(title)); }),
               fine)
         << title;
+  for (const char* name : {" Ana", "Ana ", " ", "\xff", "A\u202enA", "\x1b[2J", "\u3164"})
+    EXPECT_EQ(
+        outcome_of(golden_profile(), [&](Profile& p) { EXPECT_TRUE(p.shown_name.assign(name)); }),
+        invalid)
+        << name;
+  for (const char* name : {"", "Ana Luc\u00eda", "\U0001f483"})
+    EXPECT_EQ(
+        outcome_of(golden_profile(), [&](Profile& p) { EXPECT_TRUE(p.shown_name.assign(name)); }),
+        fine)
+        << name;
+  EXPECT_EQ(outcome_of(golden_song(), [](RoomSong&) {}), fine);
+  EXPECT_EQ(outcome_of(golden_song(), [](RoomSong& s) { s.style = RoomSong::kStyles; }), invalid);
+  EXPECT_EQ(outcome_of(golden_song(), [](RoomSong& s) { s.start_beat = -1; }), invalid);
+  EXPECT_EQ(outcome_of(golden_song(), [](RoomSong& s) { s.tempo_count = 0; }), invalid);
+  EXPECT_EQ(outcome_of(golden_song(), [](RoomSong& s) { s.tempo_count = 17; }), invalid);
+  EXPECT_EQ(outcome_of(golden_song(), [](RoomSong& s) { s.tempo_bar[0] = 1; }), invalid);
+  EXPECT_EQ(outcome_of(golden_song(), [](RoomSong& s) { s.tempo_bar[2] = 8; }), invalid);
+  EXPECT_EQ(outcome_of(golden_song(), [](RoomSong& s) { s.tempo_bar[2] = 10000; }), invalid);
+  EXPECT_EQ(outcome_of(golden_song(), [](RoomSong& s) { s.tempo_centi_bpm[1] = 2999; }), invalid);
+  EXPECT_EQ(outcome_of(golden_song(), [](RoomSong& s) { s.tempo_centi_bpm[3] = 9000; }), invalid);
   EXPECT_EQ(outcome_of(golden_scene(), [](Scene& s) { s.floor_width_m = 0.0f; }), invalid);
   EXPECT_EQ(outcome_of(golden_scene(), [](Scene& s) { s.light_rgb[2] = kNan; }), invalid);
   EXPECT_EQ(outcome_of(golden_scene(), [](Scene& s) { s.brightness = 1.5f; }), invalid);
@@ -247,6 +294,9 @@ TEST(DecodeState, CallsImpossibleValuesInvalid) {
   EXPECT_EQ(outcome_of(golden_avatar(), [](Avatar& a) { a.colour_rgb[0] = -1.0f; }), invalid);
   EXPECT_EQ(outcome_of(golden_avatar_file(), [](AvatarFile&) {}), fine);
   EXPECT_EQ(outcome_of(golden_avatar_file(), [](AvatarFile& f) { f = AvatarFile(); }), fine);
+  EXPECT_EQ(outcome_of(golden_avatar_file(),
+                       [](AvatarFile& f) { EXPECT_TRUE(f.name.assign("me\u202emrv.glb")); }),
+            invalid);
   for (const int size : {0, -1, (16 << 20) + 1})
     EXPECT_EQ(outcome_of(golden_avatar_file(), [&](AvatarFile& f) { f.size_bytes = size; }),
               invalid)

@@ -269,7 +269,7 @@ TEST(GoldenMessages, HaveTheFingerprintsAndSizesOfTheReadme) {
   });
 }
 
-TEST(Decode, RefusesEveryOtherLengthAndType) {
+TEST(GoldenDecode, RefusesEveryOtherLengthAndType) {
   const Bytes golden = read_golden("pose_t");
   Pose pose;
   for (std::size_t size = 0; size < golden.size(); ++size) {
@@ -287,7 +287,7 @@ TEST(Decode, RefusesEveryOtherLengthAndType) {
   }
 }
 
-TEST(Decode, SurvivesEverySingleBitFlip) {
+TEST(GoldenDecode, SurvivesEverySingleBitFlip) {
   expect_survives_bit_flips<Pose>("pose_t");
   expect_survives_bit_flips<Hands>("hands_t");
   expect_survives_bit_flips<TimedSkeleton>("skeleton_t");
@@ -299,7 +299,7 @@ TEST(Decode, SurvivesEverySingleBitFlip) {
   expect_survives_bit_flips<VoiceState>("voice_state_t");
 }
 
-TEST(Decode, CallsImpossibleValuesInvalid) {
+TEST(GoldenDecode, CallsImpossibleValuesInvalid) {
   const auto outcome_of = [](const Pose& pose) {
     const Bytes bytes = encoded(pose);
     Pose decoded;
@@ -323,7 +323,7 @@ TEST(Decode, CallsImpossibleValuesInvalid) {
   EXPECT_EQ(outcome_of(pose), Decoded::kFine);
 }
 
-TEST(Decode, TakesVoiceOfAnySizeUpToItsBoundAndLooksAtNoByteOfIt) {
+TEST(GoldenDecode, TakesVoiceOfAnySizeUpToItsBoundAndLooksAtNoByteOfIt) {
   const auto outcome_of = [](auto change) {
     Voice voice = golden_voice(), decoded;
     change(voice);
@@ -346,14 +346,14 @@ TEST(Decode, TakesVoiceOfAnySizeUpToItsBoundAndLooksAtNoByteOfIt) {
     EXPECT_EQ(outcome_of([size](Voice& v) { v.size_bytes = size; }), Decoded::kInvalid) << size;
 }
 
-TEST(Decode, RefusesAWishOfNobody) {
+TEST(GoldenDecode, RefusesAWishOfNobody) {
   HearingWish wish = golden_hearing(), decoded;
   wish.listener = GuestId();
   const Bytes bytes = encoded(wish);
   EXPECT_EQ(decode(bytes.data(), bytes.size(), decoded), Decoded::kInvalid);
 }
 
-TEST(Decode, AllocatesNothing) {
+TEST(GoldenDecode, AllocatesNothing) {
   const Pose pose = golden_pose();
   MessageBuffer buffer;
   Pose decoded;

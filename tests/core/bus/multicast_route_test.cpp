@@ -1,5 +1,5 @@
-// Which device carries a bus, from the kernel's table; and what is said about a URL that is none.
-#include "core/bus/multicast_route.h"
+// Tests the choice of the device for multicast from the kernel's table.
+#include "core/bus/route/multicast_route.h"
 
 #include <gtest/gtest.h>
 
@@ -46,40 +46,6 @@ TEST(MulticastRoute, RowsThatMakeNoSenseAreReadOver) {
 TEST(MulticastRoute, AGroupThatIsNoAddressHasNoDevice) {
   for (const char* group : {"", "239.255.76", "239.255.76.67.1", "239.255.76.256", "nobody"})
     EXPECT_EQ(multicast_device(group, std::string(kHead) + kMulticastOnLo), "") << group;
-}
-
-TEST(BusUrl, GroupAndPortAreRead) {
-  const auto address = parse_udpm_url("udpm://239.255.76.67:7667?ttl=0");
-  ASSERT_TRUE(address);
-  EXPECT_EQ(address->group, "239.255.76.67");
-  EXPECT_EQ(address->port, 7667);
-  EXPECT_TRUE(parse_udpm_url("udpm://224.0.0.1:65535"));
-}
-
-TEST(BusUrl, WhatIsWrongIsNamedWithTheCure) {
-  const struct {
-    const char* url;
-    const char* why;
-  } kCases[] = {
-      {"", "only udpm://"},
-      {"tcpq://localhost:7700", "only udpm://"},
-      {"udpm://239.255.76.67", "no port"},
-      {"udpm://10.0.0.1:7667", "224.0.0.0/4"},
-      {"udpm://240.0.0.1:7667", "224.0.0.0/4"},
-      {"udpm://:7667", "224.0.0.0/4"},
-      {"udpm://239.255.76.67:", "port"},
-      {"udpm://239.255.76.67:0", "port"},
-      {"udpm://239.255.76.67:65536", "port"},
-      {"udpm://239.255.76.67:99999999999", "port"},
-      {"udpm://239.255.76.67:7667x", "port"},
-      {"udpm://239.255.76.67:-1", "port"},
-  };
-  for (const auto& c : kCases) {
-    const auto address = parse_udpm_url(c.url);
-    ASSERT_FALSE(address) << c.url;
-    EXPECT_NE(address.error().what.find(c.why), std::string::npos) << address.error().what;
-    EXPECT_NE(address.error().what.find("udpm://239.255.76.67:7667?ttl=0"), std::string::npos);
-  }
 }
 
 }  // namespace

@@ -24,13 +24,14 @@ class PortDouble : public SignalPort {
     bytes = encoded;
     for (const auto& subscription : subscriptions)
       if (subscription->signal() == channel.signal() && subscription->from().includes(channel))
-        subscription->take({channel.view(), encoded.data(), encoded_size, MonoTime()}, counted);
+        subscription->take({channel.view(), encoded.data(), encoded_size, now}, counted);
   }
   void add(std::shared_ptr<Subscription> subscription) override {
     subscriptions.push_back(std::move(subscription));
   }
   const Counters& counters() const override { return counted; }
 
+  MonoTime now;  // when subscribers receive what is published
   std::vector<std::string> sent;
   MessageBuffer bytes;  // of the last
   std::size_t size = 0;

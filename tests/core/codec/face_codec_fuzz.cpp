@@ -1,8 +1,9 @@
 // A face as a stranger would send it.
 #include "core/base/assert.h"
 #include "core/codec/face_codec.h"
+#include "tests/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(face_codec) {
   dance::Face face;
   if (!dance::decode_face({data, size}, face)) return 0;
   DANCE_ASSERT(dance::is_valid(face));

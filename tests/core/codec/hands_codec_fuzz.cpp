@@ -1,8 +1,9 @@
 // A pair of hands as a stranger would send it.
 #include "core/base/assert.h"
 #include "core/codec/hands_codec.h"
+#include "tests/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(hands_codec) {
   dance::Hands hands;
   if (!dance::decode_hands({data, size}, hands)) return 0;
   DANCE_ASSERT(dance::is_valid(hands));

@@ -3,6 +3,7 @@
 
 #include "core/codec/lattice/lattice_codec.h"
 #include "tests/core/codec/lattice_poses.h"
+#include "tests/fuzz_target.h"
 
 namespace {
 
@@ -21,7 +22,7 @@ void primed(LatticeDecoder& decoder) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(lattice_codec) {
   static LatticeDecoder decoder = [] {
     LatticeDecoder made(built_in_model());
     primed(made);

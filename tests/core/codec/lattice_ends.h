@@ -42,7 +42,7 @@ struct Ends {
   void expect_near(const Pose& given) {
     Pose unit = given;
     normalize(unit);
-    BodyState seen;
+    LatticeBodyState seen;
     const TrueBody body = true_body(lattice, got);
     seen.joint = body.joint;
     seen.global = body.global;

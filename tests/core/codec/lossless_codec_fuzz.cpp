@@ -4,6 +4,7 @@
 
 #include "core/base/assert.h"
 #include "core/codec/lossless/lossless_codec.h"
+#include "tests/fuzz_target.h"
 
 namespace {
 
@@ -17,7 +18,7 @@ bool is_same(const dance::Pose& a, const dance::Pose& b) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(lossless_codec) {
   dance::LosslessDecoder decoder;
   // Whatever was let through comes back when it is written again.
   dance::LosslessEncoder again_encoder;

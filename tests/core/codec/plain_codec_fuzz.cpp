@@ -1,8 +1,9 @@
 // The payload of a record or a skeleton as a stranger would send it. The first byte says which.
 #include "core/base/assert.h"
 #include "core/codec/plain_codec.h"
+#include "tests/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(plain_codec) {
   if (size == 0) return 0;
   const std::span<const std::uint8_t> payload(data + 1, size - 1);
   if (data[0] % 2 == 0) {

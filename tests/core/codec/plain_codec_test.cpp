@@ -13,7 +13,7 @@ namespace {
 
 using PlainPayload = std::array<std::uint8_t, kMaxPosePayload>;
 
-Pose random_pose(Random& random) {
+Pose random_tagged_pose(Random& random) {
   Pose pose;
   for (auto& q : pose.R_PB) q = any_rotation(random);
   for (int axis = 0; axis < 3; ++axis)
@@ -91,7 +91,7 @@ TEST(PackedRotation, RefusesWhatIsNeverPacked) {
 TEST(PlainCodec, RoundTripStaysWithinTheStatedBounds) {
   Random random(3);
   for (int i = 0; i < 20'000; ++i) {
-    const Pose pose = random_pose(random);
+    const Pose pose = random_tagged_pose(random);
     const Pose out = round_trip(pose);
     for (std::size_t b = 0; b < kBoneCount; ++b)
       ASSERT_LT(angle_deg(pose.R_PB[b], out.R_PB[b]), 0.01);
@@ -164,7 +164,7 @@ TEST(PlainCodec, EveryPrefixIsRefusedAndEveryFlippedBitGivesAValidPoseOrNone) {
   PlainDecoder decoder;
   for (int round = 0; round < 20; ++round) {
     PlainPayload payload;
-    const std::size_t size = encoder.encode(random_pose(random), payload);
+    const std::size_t size = encoder.encode(random_tagged_pose(random), payload);
     Pose out;
     for (std::size_t n = 0; n < size; ++n)
       EXPECT_EQ(decoder.decode(1, std::span(payload).first(n), out), DecodeResult::kMalformed);

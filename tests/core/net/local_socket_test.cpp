@@ -73,7 +73,7 @@ class LocalSocket : public ::testing::Test {
     return fd;
   }
   bool turn_until(const std::function<bool()>& is_so) {
-    const MonoTime give_up = mono_now() + Duration::s(60);
+    const MonoTime give_up = mono_now() + Duration::s(200);
     while (!is_so() && mono_now() < give_up) poller->run_once(Duration::ms(5));
     return is_so();
   }

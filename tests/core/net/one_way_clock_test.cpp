@@ -102,6 +102,72 @@ TEST(OneWayClock, AFewLateStampsOfASlowSenderAreNoStep) {
   EXPECT_EQ(clock.steps(), 0u);
 }
 
+// Captures that are newer than all before, of frames at 60 Hz whose stamps a function makes.
+template <class Stamp>
+int newer_captures(OneWayClock& clock, int frames, const Stamp& stamp_us, double from_ms = 0.0) {
+  int newer = 0;
+  MonoTime newest;
+  for (int i = 0; i < frames; ++i) {
+    const double ms = from_ms + i * 1000.0 / 60.0;
+    const MonoTime ours = clock.to_ours(stamp_us(ms), at_ms(ms + 5.0));
+    EXPECT_LE(ours, at_ms(ms + 5.0));
+    if (newest.is_set() && ours <= newest) continue;
+    newest = ours;
+    ++newer;
+  }
+  return newer;
+}
+
+TEST(OneWayClock, UsesTimesOfArrivalWhenTheSendersClockStandsStill) {
+  OneWayClock clock;
+  EXPECT_GE(newer_captures(clock, 185, [](double) { return 0; }), 184);
+  EXPECT_TRUE(clock.is_unusable());
+  EXPECT_EQ(clock.steps(), 0u);
+}
+
+TEST(OneWayClock, UsesTimesOfArrivalWhenTheSendersClockTicksInSeconds) {
+  OneWayClock clock;
+  const auto stamp_us = [](double ms) {
+    return std::int64_t{1'000'000} * static_cast<std::int64_t>((ms + 480.0) / 1000.0);
+  };
+  EXPECT_GE(newer_captures(clock, 600, stamp_us), 599);
+  EXPECT_TRUE(clock.is_unusable());
+}
+
+// Every other frame has the stamp of the one before.
+TEST(OneWayClock, UsesTimesOfArrivalWhenTheSendersClockTicksAtHalfTheFrameRate) {
+  OneWayClock clock;
+  const auto stamp_us = [](double ms) {
+    return static_cast<std::int64_t>(std::floor((ms + 1.0) * 30.0 / 1000.0) * 1e6 / 30.0);
+  };
+  EXPECT_GE(newer_captures(clock, 600, stamp_us), 595);
+  EXPECT_TRUE(clock.is_unusable());
+}
+
+TEST(OneWayClock, UsesStampsAgainWhenTheSendersClockRuns) {
+  OneWayClock clock;
+  newer_captures(clock, 60, [](double) { return 0; });
+  ASSERT_TRUE(clock.is_unusable());
+  const auto running_us = [](double ms) { return static_cast<std::int64_t>(ms * 1000.0); };
+  EXPECT_EQ(newer_captures(clock, 60, running_us, 1000.0), 60);
+  EXPECT_FALSE(clock.is_unusable());
+  // A frame that the network holds back keeps its capture time.
+  const MonoTime held = clock.to_ours(running_us(2000.0), at_ms(2025.0));
+  EXPECT_NEAR(ms_of(held), 2005.0, 0.5);
+}
+
+TEST(OneWayClock, CopiesOfDatagramsMakeNoClockUnusable) {
+  OneWayClock clock;
+  for (int i = 0; i < 600; ++i) {
+    const double ms = i * 1000.0 / 60.0;
+    clock.to_ours(static_cast<std::int64_t>(ms * 1000.0), at_ms(ms));
+    clock.to_ours(static_cast<std::int64_t>(ms * 1000.0), at_ms(ms + 1.0));
+    // Now and then one takes another way.
+    if (i % 10 == 0) clock.to_ours(static_cast<std::int64_t>(ms * 1000.0), at_ms(ms + 12.0));
+    EXPECT_FALSE(clock.is_unusable()) << i;
+  }
+}
+
 TEST(OneWayClock, StampsBeyondAllTimesDoNoHarm) {
   OneWayClock clock;
   for (const std::int64_t theirs_us : {INT64_MAX, INT64_MIN, INT64_MAX / 4000, INT64_MIN / 4000})

@@ -38,5 +38,25 @@ TEST(PollerSignals, ReachThePollerWhicheverThreadTheyHit) {
   early.join();
 }
 
+// A terminal that is closed ends a recording as a request to end does.
+TEST(PollerSignals, AHangupEndsItUnlessItIsIgnored) {
+  for (const bool is_ignored : {true, false}) {
+    const auto before = std::signal(SIGHUP, is_ignored ? SIG_IGN : SIG_DFL);
+    {
+      auto poller = Poller::create();
+      ASSERT_TRUE(poller) << poller.error().what;
+      ASSERT_TRUE((*poller)->stop_on_signals());
+      for (int turn = 0; turn < 600 && !(*poller)->is_stopped(); ++turn) {
+        if (turn % kTurnsPerSignal == 0) {
+          EXPECT_EQ(raise(SIGHUP), 0);
+        }
+        (*poller)->run_once(Duration::ms(is_ignored ? 0 : 100));
+      }
+      EXPECT_EQ((*poller)->is_stopped(), !is_ignored);
+    }
+    std::signal(SIGHUP, before);
+  }
+}
+
 }  // namespace
 }  // namespace dance

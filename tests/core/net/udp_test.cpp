@@ -1,10 +1,13 @@
 // Sockets on this machine's loopback address.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <vector>
 
 #include "core/net/mono_clock.h"
 #include "core/net/poller.h"
+#include "core/net/system/wake_event.h"
+#include "core/net/tcp_socket.h"
 #include "core/net/udp_socket.h"
 #include "testing/line/lossy_proxy.h"
 
@@ -86,6 +89,56 @@ TEST(UdpSocket, AnIpv6SocketHearsIpv4Too) {
   EXPECT_EQ(receive_all(*client, 1).got.size(), 1u);
 }
 
+// A client of 127.0.0.2 receives nothing that comes from 127.0.0.1.
+void expect_answers_from_the_asked_address(const Address& wildcard) {
+  auto server = UdpSocket::serve(wildcard);
+  if (!server) GTEST_SKIP() << server.error().what;
+  const std::uint16_t port = server->local_address().port();
+  for (const char* ip : {"127.0.0.1:1", "127.0.0.2:1", "127.7.7.7:1"}) {
+    auto client = UdpSocket::connect(Address::resolve(ip)->with_port(port));
+    ASSERT_TRUE(client);
+    client->send_now({}, bytes(5, 1));
+    const Echo heard = receive_all(*server, 1);
+    ASSERT_EQ(heard.got.size(), 1u);
+    EXPECT_EQ(heard.from.to_string(), client->local_address().to_string());
+    server->send_now(heard.from, bytes(6, 2));
+    server->send(heard.from, bytes(7, 3));
+    server->flush();
+    const Echo answers = receive_all(*client, 2);
+    ASSERT_EQ(answers.got.size(), 2u) << ip;
+    EXPECT_EQ(answers.got[0], bytes(6, 2));
+    EXPECT_EQ(answers.got[1], bytes(7, 3));
+  }
+  EXPECT_EQ(server->counters().send_failed, 0u);
+}
+
+TEST(UdpSocket, AServerAnswersFromTheAddressThatWasAskedOverIpv4) {
+  expect_answers_from_the_asked_address(Address::any_ipv4(0));
+}
+
+TEST(UdpSocket, AServerAnswersFromTheAddressThatWasAskedOverBothFamilies) {
+  expect_answers_from_the_asked_address(Address::resolve("[::]:1")->with_port(0));
+}
+
+// A peer that asks at another of our addresses is another place to answer from.
+TEST(UdpSocket, AServersDatagramsDifferByTheAddressThatTheyWereSentTo) {
+  auto server = UdpSocket::serve(Address::any_ipv4(0));
+  ASSERT_TRUE(server);
+  auto client = UdpSocket::bind(Address::loopback(0));
+  ASSERT_TRUE(client);
+  const std::uint16_t port = server->local_address().port();
+  const auto from_of = [&](const char* ip) {
+    client->send_now(Address::resolve(ip)->with_port(port), bytes(5, 1));
+    return receive_all(*server, 1).from;
+  };
+  const Address first = from_of("127.0.0.1:1"), second = from_of("127.0.0.2:1");
+  EXPECT_FALSE(first == second);
+  EXPECT_EQ(first, from_of("127.0.0.1:1"));
+  EXPECT_EQ(first.ip(), second.ip());
+  EXPECT_EQ(second.asked_ip()[3], 2);
+  EXPECT_FALSE(client->local_address().has_asked_ip());
+}
+
 TEST(UdpSocket, NamesAPortThatIsTaken) {
   auto first = UdpSocket::bind(Address::loopback(0));
   ASSERT_TRUE(first);
@@ -95,6 +148,58 @@ TEST(UdpSocket, NamesAPortThatIsTaken) {
   EXPECT_NE(second.error().what.find("port " + std::to_string(taken.port()) + " is taken"),
             std::string::npos);
   EXPECT_NE(second.error().what.find("choose another port"), std::string::npos);
+}
+
+TEST(UdpSocket, NamesABroadcastAddress) {
+  // The loopback network has one of its own.
+  const auto socket = UdpSocket::connect(*Address::resolve("127.255.255.255:9"));
+  ASSERT_FALSE(socket);
+  EXPECT_EQ(
+      socket.error().what,
+      "127.255.255.255:9 is a broadcast address, which stands for all hosts of a network: name "
+      "the address of one host");
+}
+
+TEST(UdpSocket, NamesTheLimitOfOpenFiles) {
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+  const rlimit none{3, before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
+  const auto socket = UdpSocket::bind(Address::loopback(0));
+  const auto event = WakeEvent::create();
+  const auto poller = Poller::create();
+  const auto port = try_tcp_port(Address::loopback(0));
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
+  ASSERT_FALSE(socket || event || poller || port);
+  for (const std::string& what :
+       {socket.error().what, event.error().what, poller.error().what, port.error().what})
+    EXPECT_NE(what.find("too many open files in this program; raise the limit with: ulimit -n"),
+              std::string::npos)
+        << what;
+}
+
+TEST(TcpPort, NamesWhyItCannotBeUsed) {
+  auto first = UdpSocket::bind(Address::loopback(0));
+  EXPECT_TRUE(try_tcp_port(first->local_address())) << "UDP's ports are others";
+  EXPECT_NE(try_tcp_port(*Address::resolve("192.0.2.77:9464")).error().what.find("192.0.2.77"),
+            std::string::npos);
+}
+
+TEST(WakeEvent, IsReadableFromSignalToClear) {
+  auto event = WakeEvent::create();
+  ASSERT_TRUE(event);
+  const WakeEvent moved = std::move(*event);
+  const auto poller = Poller::create();
+  int woken = 0;
+  (*poller)->watch(moved.fd(), [&](MonoTime) {
+    ++woken;
+    moved.clear();
+  });
+  moved.signal();
+  moved.signal();
+  (*poller)->run_once(Duration::s(10));
+  (*poller)->run_once(Duration());
+  EXPECT_EQ(woken, 1);
 }
 
 TEST(UdpSocket, NamesAnAddressThatIsNotOurs) {

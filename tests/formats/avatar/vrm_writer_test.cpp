@@ -24,10 +24,12 @@ VrmMeta meta() {
   return meta;
 }
 
-// The mannequin with what it does not have: a picture, toon, a morph, an expression, a spring.
+// A mannequin plus a picture, toon shading, a spring and one more morph.
 AvatarModel dressed() {
   AvatarModel model =
       mannequin_model(average_skeleton(1.6f), look_of(*GuestId::parse("alice")), true);
+  model.morphs.clear();
+  model.expressions.clear();
   AvatarPicture picture;
   picture.width_px = 2;
   picture.height_px = 3;

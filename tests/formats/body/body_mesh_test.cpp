@@ -111,6 +111,58 @@ TEST(BodyMesh, LimbsFollowTheirOwnSide) {
   EXPECT_GT(thighs, 500u);
 }
 
+TEST(BodyMesh, TrousersOfNarrowHipsHaveTwoLegs) {
+  Skeleton skeleton = average_skeleton();
+  for (const float s : {1.0f, -1.0f})
+    skeleton.offset_m[index_of(s > 0 ? Bone::kLeftUpperLeg : Bone::kRightUpperLeg)].x() = 0.06f * s;
+  const auto is_left = [](const SkinWeights& skin) {
+    int weight = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+      if (skin.joints[k] >= index_of(Bone::kLeftUpperLeg))
+        weight +=
+            skin.joints[k] < index_of(Bone::kRightUpperLeg) ? skin.weights[k] : -skin.weights[k];
+    return weight > 0;
+  };
+  for (const BodyMeshPart& part :
+       body_mesh(skeleton, clothes(Sleeves::kLong, Legwear::kFlared, Hair::kBun), false)) {
+    if (part.material != Material::kLegs) continue;
+    std::size_t bridges = 0;
+    for (std::size_t t = 0; t < part.triangles.size(); t += 3) {
+      const auto side_of = [&](std::size_t k) { return is_left(part.skin[part.triangles[t + k]]); };
+      const bool is_low = part.places_m[part.triangles[t]].y() < 0.6f;
+      bridges += is_low && (side_of(0) != side_of(1) || side_of(0) != side_of(2));
+    }
+    EXPECT_EQ(bridges, 0u);
+  }
+}
+
+// A skeleton like CMU's, whose first joint of the back lies in the hips.
+TEST(BodyMesh, AShirtEndsAtTheWaistWhereverTheBackBegins) {
+  const auto hem_of = [](const Skeleton& skeleton) {
+    float low = 9.0f;
+    int of_spine = 0;  // weights of the cloth below the waist
+    for (const BodyMeshPart& part :
+         body_mesh(skeleton, clothes(Sleeves::kLong, Legwear::kTrousers, Hair::kBun), false)) {
+      if (part.material != Material::kTop) continue;
+      for (std::size_t v = 0; v < part.places_m.size(); ++v) {
+        low = std::min(low, part.places_m[v].y());
+        if (part.places_m[v].y() > skeleton.hips_height_m() + 0.02f) continue;
+        for (std::size_t k = 0; k < 4; ++k)
+          if (part.skin[v].joints[k] == index_of(Bone::kSpine)) of_spine += part.skin[v].weights[k];
+      }
+    }
+    return std::pair(low, of_spine);
+  };
+  Skeleton low_back = average_skeleton();
+  low_back.offset_m[index_of(Bone::kChest)] += low_back.offset(Bone::kSpine);
+  low_back.offset_m[index_of(Bone::kSpine)].setZero();
+  const auto [usual, none] = hem_of(average_skeleton());
+  const auto [low, of_spine] = hem_of(low_back);
+  EXPECT_EQ(none, 0);
+  EXPECT_EQ(of_spine, 0);
+  EXPECT_NEAR(low, usual, 0.01f);
+}
+
 TEST(BodyMesh, StandsOnTheFloorAndIsAsTallAsTheDancer) {
   const float heights_m[] = {1.6f, 1.9f, 1.2f};
   for (std::size_t b = 0; b < bodies().size(); ++b) {

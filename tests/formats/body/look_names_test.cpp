@@ -44,6 +44,37 @@ TEST(LookNames, TintTheTopAndAWholeDress) {
   EXPECT_NE(trousers->legs, Eigen::Vector3f(0.8f * trousers->top));
 }
 
+TEST(LookNames, ChooseSkinAndTheColourOfTheHair) {
+  const auto look = named_look(kAlice, "bun-s6-h4", kWhite);
+  ASSERT_TRUE(look);
+  EXPECT_EQ(look->skin, linear_from_srgb(kSkinColours[5]));
+  EXPECT_EQ(look->hair, linear_from_srgb(kHairColours[3]));
+  EXPECT_EQ(look->top, look_of(kAlice).top);
+  EXPECT_FALSE(is_look_name("s1-s2"));
+  EXPECT_FALSE(is_look_name("s7"));
+}
+
+TEST(LookNames, NameOfALookMakesTheSameLookForAnotherGuest) {
+  for (const char* guest : {"alice", "bob", "carla", "dora"}) {
+    const GuestLook look = look_of(*GuestId::parse(guest));
+    const std::string name = name_of_look(look);
+    ASSERT_TRUE(GuestId::parse(name)) << name;
+    const auto same = named_look(*GuestId::parse("erik"), name, kWhite);
+    ASSERT_TRUE(same) << name;
+    EXPECT_EQ(same->skin, look.skin);
+    EXPECT_EQ(same->hair, look.hair);
+    EXPECT_EQ(same->hair_style, look.hair_style);
+    EXPECT_EQ(same->legwear, look.legwear);
+    EXPECT_EQ(same->sleeves, look.sleeves);
+  }
+}
+
+TEST(LookNames, FitIntoAnAvatarsNameWithAWordOfEachKind) {
+  const std::string longest = "trousers-crop-long-s1-h1";
+  EXPECT_TRUE(is_look_name(longest));
+  EXPECT_TRUE(GuestId::parse(longest));
+}
+
 TEST(LookNames, RefuseOtherWordsAndTwoForOneThing) {
   for (const char* name : {"bun-bob", "hat", "bun-", "-bun", "-", "mannequin-bun", "bunbob"})
     EXPECT_FALSE(is_look_name(name)) << name;

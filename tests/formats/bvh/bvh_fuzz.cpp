@@ -5,8 +5,9 @@
 
 #include "core/base/assert.h"
 #include "formats/bvh/retarget.h"
+#include "tests/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(bvh) {
   dance::BvhLimits limits;
   limits.frames = 1000;
   limits.values = 100'000;

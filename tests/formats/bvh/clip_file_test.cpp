@@ -5,12 +5,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
 
+#include "core/base/random.h"
 #include "tests/test_folder.h"
 
 namespace dance {
@@ -93,11 +95,40 @@ TEST_F(ClipFile, DoesNotWaitForAPipe) {
 
 TEST_F(ClipFile, SaysThatAnXzFileWasCutShortOrDamaged) {
   std::string packed = xz(text_of(kSample));
-  EXPECT_EQ(error_of(write("cut.bvh.xz", packed.substr(0, packed.size() / 2))),
+  // The sample is one block of which nothing comes out before its end.
+  EXPECT_EQ(error_of(write("cut.bvh.xz", packed.substr(0, packed.size() / 8))),
             path("cut.bvh.xz") + ": the xz file is cut short; copy it again");
   packed[packed.size() / 2] = static_cast<char>(packed[packed.size() / 2] ^ 1);
   EXPECT_EQ(error_of(write("hurt.bvh.xz", packed)),
             path("hurt.bvh.xz") + ": the xz file is damaged; copy it again");
+}
+
+TEST_F(ClipFile, KeepsTheWholeFramesOfAnXzFileThatIsCutShort) {
+  // 400 frames that pack badly: most of the packed file is motion.
+  const std::string sample = text_of(kSample);
+  const std::size_t motion = sample.find("MOTION");
+  const std::string last_line = sample.substr(sample.rfind('\n', sample.size() - 2) + 1);
+  const auto channels = std::count(last_line.begin(), last_line.end(), ' ') + 1;
+  std::string text = sample.substr(0, motion) + "MOTION\nFrames: 400\nFrame Time: 0.0333333\n";
+  Random random(42);
+  for (int f = 0; f < 400; ++f)
+    for (int c = 0; c < channels; ++c)
+      text += std::to_string(random.uniform(-9.0, 9.0)) + (c + 1 < channels ? " " : "\n");
+  const std::string packed = xz(text);
+  const auto whole = load_clip(write("whole.bvh.xz", packed));
+  ASSERT_TRUE(whole) << whole.error().what;
+  ASSERT_EQ(whole->clip.frames.size(), 400u);
+  const auto cut = load_clip(write("cut.bvh.xz", packed.substr(0, packed.size() * 3 / 4)));
+  ASSERT_TRUE(cut) << cut.error().what;
+  EXPECT_GT(cut->clip.frames.size(), 200u);
+  EXPECT_LT(cut->clip.frames.size(), 320u);
+  EXPECT_EQ(cut->lost.rfind("the xz file is cut short; copy it again; line ", 0), 0u) << cut->lost;
+  EXPECT_NE(cut->lost.find(" of 400; it was cut short"), std::string::npos) << cut->lost;
+  // Only the index at the end is missing.
+  const auto endless = load_clip(write("endless.bvh.xz", packed.substr(0, packed.size() - 5)));
+  ASSERT_TRUE(endless) << endless.error().what;
+  EXPECT_EQ(endless->clip.frames.size(), 400u);
+  EXPECT_EQ(endless->lost, "the xz file is cut short; copy it again");
 }
 
 TEST_F(ClipFile, RefusesEveryPrefixOfAnXzFile) {

@@ -6,8 +6,9 @@
 #include <cstdlib>
 
 #include "formats/camera_view/camera_view_reader.h"
+#include "tests/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(camera_view) {
   using dance::CameraViewReader;
   if (size == 0) return 0;
   static CameraViewReader fresh;

@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "formats/clip/file_kind.h"
+#include "formats/kind/file_kind.h"
 #include "tests/formats/gltf/glb_clips.h"
 #include "tests/test_folder.h"
 

@@ -3,8 +3,9 @@
 
 #include "formats/csv/csv_reader.h"
 #include "tests/formats/recording/checked_sink.h"
+#include "tests/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(csv) {
   auto reader = dance::CsvReader::over({reinterpret_cast<const char*>(data), size});
   if (!reader) return 0;
   dance::CheckedSink checks;

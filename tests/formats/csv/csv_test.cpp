@@ -115,6 +115,48 @@ TEST(CsvReader, ReadsWhatASpreadsheetMakesOfATable) {
   expect_same_poses(night, again.night);
 }
 
+// A spreadsheet saves large numbers with the digits that it shows.
+std::string with_rounded(const Recording& night, std::vector<std::size_t> columns,
+                         const char* text) {
+  std::string table;
+  auto rows = cells_of(table_of(night));
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (r > 0)
+      for (const std::size_t column : columns) rows[r][column] = text;
+    for (std::size_t i = 0; i < rows[r].size(); ++i) table += (i > 0 ? "," : "") + rows[r][i];
+    table += "\n";
+  }
+  return table;
+}
+
+TEST(CsvReader, UsesTheOtherColumnWhereOneIsRounded) {
+  const Recording night = recorded_night(20);
+  for (const char* rounded : {"1.79549E+15", "1795490000000000"}) {
+    const Read again = read(with_rounded(night, {0}, rounded));
+    ASSERT_EQ(again.error, "") << rounded;
+    ASSERT_NE(again.night.find(kAlice), nullptr);
+    const auto& poses = again.night.find(kAlice)->poses;
+    const auto& as_was = night.find(kAlice)->poses;
+    ASSERT_EQ(poses.size(), as_was.size());
+    for (std::size_t i = 1; i < poses.size(); ++i)
+      EXPECT_EQ(poses[i].time_us - poses[0].time_us,
+                (as_was[i].value.capture_time - as_was[0].value.capture_time).count_ns() / 1000);
+  }
+  const Read captured = read(with_rounded(night, {1}, "3.256E+09"));
+  ASSERT_EQ(captured.error, "");
+  const auto& poses = captured.night.find(kBob)->poses;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    EXPECT_EQ(poses[i].value.capture_time.since_zero_us(), poses[i].time_us);
+}
+
+TEST(CsvReader, RefusesATableWhoseTimesAreAllRounded) {
+  const Read again = read(with_rounded(recorded_night(20), {0, 1}, "1.79549E+15"));
+  EXPECT_NE(again.error.find("its times are rounded, as spreadsheets save them (1.79549E+15)"),
+            std::string::npos)
+      << again.error;
+  EXPECT_EQ(again.counters.poses, 0u);
+}
+
 TEST(CsvReader, TakesAnAverageBodyWhereATableHasNoPlaces) {
   const Recording night = recorded_night(3);
   std::string table;

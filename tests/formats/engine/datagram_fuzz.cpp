@@ -5,8 +5,9 @@
 #include <cstdlib>
 
 #include "formats/engine/datagram.h"
+#include "tests/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(engine_datagram) {
   const dance::engine::Received received = dance::engine::decode({data, size});
   if (const auto* pose = std::get_if<dance::Pose>(&received.what)) {
     if (!is_valid(*pose) || pose->capture_time <= dance::MonoTime()) std::abort();

@@ -12,12 +12,12 @@
 namespace dance::engine {
 namespace {
 
-constexpr MonoTime kNow = MonoTime::from_ns(kSomeTime_ns);
+constexpr MonoTime kStart = MonoTime::from_ns(kSomeTime_ns);
 constexpr std::uint32_t kWrites = 60'000;
 
 TEST(SegmentThreads, NoReaderSeesAPoseThatIsMadeOfTwo) {
   const auto segment = fresh_segment();
-  SegmentWriter writer(*segment, kNow);
+  SegmentWriter writer(*segment, kStart);
   const std::size_t slot = *writer.reserve(*GuestId::parse("alice"));
   writer.write(slot, numbered(0));
   writer.show(slot);
@@ -58,7 +58,7 @@ TEST(SegmentThreads, NoReaderSeesAPoseThatIsMadeOfTwo) {
 
 TEST(SegmentThreads, NobodyIsSeenInAnothersPlace) {
   const auto segment = fresh_segment();
-  SegmentWriter writer(*segment, kNow);
+  SegmentWriter writer(*segment, kStart);
   const GuestId guests[2] = {*GuestId::parse("alice"), *GuestId::parse("bob")};
   std::atomic<bool> is_over{false};
   std::atomic<std::uint64_t> mistaken{0}, fine{0};

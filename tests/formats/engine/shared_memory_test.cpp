@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <string>
 
+#include "core/program/child_process.h"
 #include "formats/engine/segment_writer.h"
 
 namespace dance::engine {
@@ -107,17 +107,11 @@ TEST_F(SharedMemory, AReaderMapsOnlyWhatIsAHousesAndWhole) {
   EXPECT_EQ(seen.segment()->header.magic.load(), kMagic);
 }
 
-// In a child with an alarm: whoever waits for the FIFO's other end is ended by it.
+// In a child, which is ended if it waits for the FIFO's other end.
 template <class Opens>
 bool comes_back(Opens&& opens) {
-  const pid_t child = fork();
-  if (child == 0) {
-    alarm(10);
-    _exit(opens() ? 0 : 1);
-  }
-  int status = 0;
-  return child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status) &&
-         WEXITSTATUS(status) == 0;
+  auto child = ChildProcess::start_copy([&] { return opens() ? 0 : 1; });
+  return child && child->wait(Duration::s(10)) && child->ended_well();
 }
 
 TEST_F(SharedMemory, NobodyWaitsForAFifoThatLiesInItsPlace) {

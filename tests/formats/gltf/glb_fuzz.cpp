@@ -5,8 +5,9 @@
 
 #include "core/base/assert.h"
 #include "formats/gltf/glb.h"
+#include "tests/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(glb) {
   dance::GlbLimits limits;
   limits.json_objects = 2048;
   limits.nodes = 256;

@@ -71,6 +71,42 @@ constexpr const char* kTimes =
     R"({"bufferView":0,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[1]})";
 constexpr const char* kValues = R"({"bufferView":0,"componentType":5126,"count":2,"type":"VEC3"})";
 
+TEST(GlbHostile, RefusesEmptyBuffersAtWhichTinygltfThrows) {
+  Bytes bytes = glb_of(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":0}]})");
+  put_u32(bytes, 0);
+  put_u32(bytes, 0x004e4942);
+  bytes[8] = static_cast<std::uint8_t>(bytes.size());
+  const std::string kError =
+      "damaged: it is not as glTF 2.0 has it, or holds nothing; export it again as .glb";
+  EXPECT_EQ(error_of(bytes), kError);
+  EXPECT_EQ(
+      error_of(glb_of(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":0}]})", {0, 0, 0, 0})),
+      kError);
+}
+
+// tinygltf's texts and exceptions never reach a reader.
+TEST(GlbHostile, NamesTheDamagedPartAndTheCureInItsOwnWords) {
+  const auto expect_part = [](const std::string& json, const std::string& part) {
+    const std::string error = error_of(glb_of(json));
+    EXPECT_EQ(error.find("damaged: " + part), 0u) << error;
+    EXPECT_NE(error.find("; export it again"), error.npos) << error;
+    for (const char* foreign : {"json.exception", "vector", "property", "\n", "\x1b", "evil"})
+      EXPECT_EQ(error.find(foreign), error.npos) << error;
+  };
+  expect_part(R"({"asset":7})", "'asset'");
+  expect_part(R"({"asset":{"version":"2.0"},"buffers":[{}]})", "'buffers'");
+  expect_part(R"({"asset":{"version":"2.0"},"bufferViews":[7]})", "'bufferViews'");
+  expect_part(R"({"asset":{"version":"2.0"},"accessors":[{"bufferView":"evil\u001b[2J"}]})", "");
+  expect_part(R"({"asset":{"version":"2.0"},"nodes":[7]})", "'nodes'");
+  expect_part(R"({"asset":{"version":"2.0"},"images":[{"name":"evil\u001b[2J"}]})", "'images'");
+  expect_error(glb_of(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":8}],)"
+                      R"("extensionsRequired":["KHR_mesh_quantization",)"
+                      R"("EXT_meshopt_compression"]})"),
+               "packed with EXT_meshopt_compression; export it without compression");
+  expect_error(glb_of(R"({"asset":{"version":"2.0"}, "nodes":[)"),
+               "damaged: its JSON breaks off or is no JSON; copy the file again");
+}
+
 TEST(GlbHostile, SaysWhatIsNoGltfAtAll) {
   expect_error({}, "no glTF file");
   expect_error({'g', 'l', 'T', 'F'}, "shorter than a GLB's header");
@@ -176,7 +212,7 @@ TEST(GlbHostile, OpensNoOtherFile) {
     expect_error(
         glb_of(R"({"asset":{"version":"2.0"},"nodes":[{}],"buffers":[{"byteLength":4,"uri":")" +
                std::string(uri) + R"("}]})"),
-        "no valid glTF");
+        "which is not opened");
   // A picture that is not there is no reason to refuse a dance.
   expect_error(
       glb_of(R"({"asset":{"version":"2.0"},"nodes":[{}],"images":[{"uri":"/etc/hostname"}]})"),

@@ -4,8 +4,9 @@
 
 #include "core/base/assert.h"
 #include "formats/log/log_file.h"
+#include "tests/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(log_file) {
   dance::LogReader reader = dance::LogReader::over({data, size});
   std::size_t used = 0;
   unsigned sum = 0;

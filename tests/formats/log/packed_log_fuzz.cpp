@@ -6,8 +6,9 @@
 #include "core/base/assert.h"
 #include "formats/log/log_packer.h"
 #include "formats/log/unpacked_log.h"
+#include "tests/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(packed_log) {
   dance::UnpackedLog log = dance::UnpackedLog::over({data, size});
   unsigned sum = 0;
   while (const auto event = log.next()) {

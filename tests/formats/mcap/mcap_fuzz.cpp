@@ -3,8 +3,9 @@
 
 #include "formats/mcap/dance_mcap_reader.h"
 #include "tests/formats/recording/checked_sink.h"
+#include "tests/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(mcap) {
   auto reader = dance::DanceMcapReader::over({data, size});
   if (!reader) return 0;
   dance::CheckedSink checks;

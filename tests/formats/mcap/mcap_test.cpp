@@ -1,9 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "core/base/byte_reader.h"
+#include "formats/lz4/lz4_frame.h"
 #include "formats/mcap/dance_schemas.h"
 #include "tests/allocation_guard.h"
 #include "tests/formats/mcap/mcap_sample.h"
@@ -50,6 +54,75 @@ TEST(DanceMcap, ReadsTheSameFromChunksWithoutCompressionAndWithoutChunks) {
   const McapBytes packed = mcap_of(night);
   for (const bool is_chunked : {true, false})
     expect_same_poses(night, read(plain_mcap_of(packed, is_chunked)));
+}
+
+TEST(DanceMcap, ReadsChunksThatAreCompressedWithLz4) {
+  const Recording night = recorded_night(20);
+  PlainMcapOptions options;
+  options.compression = "lz4";
+  options.pack = [](std::span<const std::uint8_t> bytes) {
+    Lz4Packer packer(bytes.size());
+    const auto frame =
+        packer.pack({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, bytes.size());
+    return std::vector<std::uint8_t>(frame->begin(), frame->end());
+  };
+  McapBytes packed = plain_mcap_of(mcap_of(night), options);
+  expect_same_poses(night, read(packed));
+  constexpr std::array<std::uint8_t, 4> kFrameMagic{0x04, 0x22, 0x4d, 0x18};
+  const auto frame =
+      std::search(packed.begin(), packed.end(), kFrameMagic.begin(), kFrameMagic.end());
+  ASSERT_NE(frame, packed.end());
+  frame[4] = 0xFF;  // its flags
+  auto damaged = DanceMcapReader::over(packed);
+  ASSERT_TRUE(damaged.has_value());
+  Recording none;
+  EXPECT_FALSE(damaged->read_into(none).has_value());
+  EXPECT_EQ(damaged->file().counters().damaged_chunks, 1u);
+}
+
+TEST(DanceMcap, MergesChannelsThatFollowEachOtherByTheirLogTimes) {
+  const Recording night = recorded_night(50);
+  PlainMcapOptions options;
+  options.by_channel = true;
+  const McapBytes bytes = plain_mcap_of(mcap_of(night), options);
+  auto reader = DanceMcapReader::over(bytes);
+  ASSERT_TRUE(reader.has_value());
+  Recording again;
+  const auto done = reader->read_into(again);
+  ASSERT_TRUE(done.has_value()) << done.error().what;
+  EXPECT_TRUE(reader->was_sorted());
+  EXPECT_EQ(reader->counters().bare + reader->counters().without_transforms, 0u);
+  expect_same_poses(night, again);
+}
+
+TEST(DanceMcap, GoesOnBehindBytesThatAreNoRecordsAndCountsThem) {
+  const Recording night = recorded_night(20);
+  const McapBytes plain = plain_mcap_of(mcap_of(night), false);
+  // Between two records, about in the middle.
+  std::size_t at = kMcapMagic.size();
+  while (at < plain.size() / 2)
+    at += kMcapRecordHead_bytes + ByteReader(std::span(plain).subspan(at + 1)).u64();
+  for (const std::uint8_t junk : std::initializer_list<std::uint8_t>{0x00, 0x55, 0xFF}) {
+    McapBytes bytes = plain;
+    bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(at), 4096, junk);
+    auto reader = DanceMcapReader::over(bytes);
+    ASSERT_TRUE(reader.has_value());
+    Recording again;
+    ASSERT_TRUE(reader->read_into(again).has_value());
+    EXPECT_EQ(reader->file().counters().damaged_bytes, 4096u) << int{junk};
+    expect_same_poses(night, again);
+  }
+}
+
+TEST(DanceMcap, CountsARecordThatIsCutOff) {
+  const McapBytes plain = plain_mcap_of(mcap_of(recorded_night(20)), false);
+  McapBytes cut = plain;
+  cut.resize(cut.size() - 5);
+  McapReader reader = McapReader::over(cut).value();
+  while (reader.next()) {
+  }
+  EXPECT_EQ(reader.counters().cut_records, 1u);
+  EXPECT_EQ(reader.counters().lost(), 1u);
 }
 
 TEST(DanceMcap, KeepsTheChunksOfAWriterThatWasKilled) {
@@ -283,7 +356,8 @@ TEST(McapReader, RefusesChunksThatClaimTooMuchAndCountsEachCause) {
   EXPECT_EQ(counters_of_chunk(100, "zstd", kMax, "abcd").malformed, 1u);
   EXPECT_EQ(counters_of_chunk(100, "zstd", 4, "abcd").damaged_chunks, 1u);
   EXPECT_EQ(counters_of_chunk(0, "zstd", 0, "").lost(), 0u);
-  EXPECT_EQ(counters_of_chunk(100, "lz4", 4, "abcd").other_compression, 1u);
+  EXPECT_EQ(counters_of_chunk(100, "lz4", 4, "abcd").damaged_chunks, 1u);
+  EXPECT_EQ(counters_of_chunk(100, "lzo", 4, "abcd").other_compression, 1u);
   EXPECT_EQ(counters_of_chunk(4, "", 4, "abcd", 1).damaged_chunks, 1u);
   EXPECT_EQ(counters_of_chunk(4, "", 4, "abcd").malformed, 1u);
 }

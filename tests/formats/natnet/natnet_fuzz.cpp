@@ -5,8 +5,9 @@
 
 #include "core/base/assert.h"
 #include "producers/natnet/natnet_body.h"
+#include "tests/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(natnet) {
   using namespace dance;
   static const auto frame = std::make_unique<NatNetFrame>();
   static const auto models = std::make_unique<NatNetModels>();

@@ -6,8 +6,9 @@
 #include "core/base/assert.h"
 #include "formats/picture/orientation.h"
 #include "formats/picture/picture.h"
+#include "tests/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(picture_reader) {
   dance::PictureLimits limits;
   limits.side_px = 256;
   limits.decoded_bytes = std::size_t{4} * 256 * 256;

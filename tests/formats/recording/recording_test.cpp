@@ -167,6 +167,21 @@ TEST(SteadyClip, BringsHandsToTheTimesOfTheFrames) {
                 2e-3f);
 }
 
+TEST(SteadyClip, KeepsEveryPoseOfATakeWhoseTimesAreRounded) {
+  for (const std::int64_t hz : {30, 60}) {
+    SteadyClip clip(static_cast<double>(hz));
+    for (std::int64_t i = 0; i < 1941; ++i) {
+      Pose pose;
+      pose.p_WH_m.x() = static_cast<float>(i);
+      pose.capture_time = MonoTime::from_us(5'000'000 + i * 1'000'000 / hz);
+      clip.add(pose);
+    }
+    ASSERT_EQ(clip.body().frames.size(), 1941u) << hz;
+    for (std::size_t f = 0; f < 1941; ++f)
+      ASSERT_NEAR(clip.body().frames[f].p_WH_m.x(), static_cast<float>(f), 1e-3f) << hz;
+  }
+}
+
 TEST(SteadyClip, HoldsHandsAcrossASilenceAndCountsWhatIsNotNewer) {
   SteadyClip clip(100.0, 40);
   Pose pose;

@@ -5,6 +5,7 @@
 
 #include "core/base/assert.h"
 #include "tests/formats/replay/some_index.h"
+#include "tests/fuzz_target.h"
 
 namespace dance {
 namespace {
@@ -30,7 +31,7 @@ void check(std::span<const std::uint8_t> bytes) {
 }  // namespace
 }  // namespace dance
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(replay_index) {
   dance::check({data, size});
   std::vector<std::uint8_t> sealed(data, data + size);
   dance::test::seal_index(sealed);

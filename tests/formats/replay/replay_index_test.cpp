@@ -28,7 +28,7 @@ std::string why_not(const std::function<void(ReplayIndex&)>& change) {
 // Where the count of guests is: behind the head.
 constexpr std::size_t kGuestCount_at = 8 + 4 + 24 + 1 + 16 + 16 + 8;
 
-void put_u32(std::vector<std::uint8_t>& bytes, std::size_t at, std::uint32_t v) {
+void overwrite_u32(std::vector<std::uint8_t>& bytes, std::size_t at, std::uint32_t v) {
   for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<std::uint8_t>(v >> (8 * i));
 }
 
@@ -114,7 +114,7 @@ TEST(ReplayIndex, ExtremeCountsAreRefusedBeforeAnythingIsAllocated) {
   for (const std::uint32_t count :
        {3u, 255u, 256u, 257u, 1u << 20, 1u << 31, std::numeric_limits<std::uint32_t>::max()}) {
     auto bytes = write_index(some_index());
-    put_u32(bytes, kGuestCount_at, count);
+    overwrite_u32(bytes, kGuestCount_at, count);
     seal_index(bytes);
     EXPECT_FALSE(read_index(bytes)) << count;
   }
@@ -125,7 +125,7 @@ TEST(ReplayIndex, ExtremeCountsAreRefusedBeforeAnythingIsAllocated) {
   ASSERT_TRUE(read_index(bytes));
   for (std::size_t list = 0; list < 5; ++list) {
     auto extreme = bytes;
-    put_u32(extreme, kGuestCount_at + 4 * list, std::numeric_limits<std::uint32_t>::max());
+    overwrite_u32(extreme, kGuestCount_at + 4 * list, std::numeric_limits<std::uint32_t>::max());
     seal_index(extreme);
     const auto read = read_index(extreme);
     ASSERT_FALSE(read) << list;
@@ -168,7 +168,7 @@ TEST(ReplayIndex, WhatCannotBeIsRefusedByName) {
 
 TEST(ReplayIndex, AnotherVersionOrAnotherFileIsRefused) {
   auto bytes = write_index(some_index());
-  bytes[8] = 2;
+  ++bytes[8];
   seal_index(bytes);
   EXPECT_EQ(read_index(bytes).error().what, "it is of another version");
   bytes[0] = 'd';

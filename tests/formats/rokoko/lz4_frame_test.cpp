@@ -1,4 +1,4 @@
-#include "formats/rokoko/lz4_frame.h"
+#include "formats/lz4/lz4_frame.h"
 
 #include <gtest/gtest.h>
 

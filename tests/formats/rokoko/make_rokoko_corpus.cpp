@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "formats/rokoko/lz4_frame.h"
+#include "formats/lz4/lz4_frame.h"
 #include "formats/rokoko/rokoko_writer.h"
 #include "tests/formats/rokoko/rokoko_couple.h"
 

@@ -7,8 +7,9 @@
 #include "formats/rokoko/rokoko_reader.h"
 #include "formats/rokoko/rokoko_writer.h"
 #include "producers/rokoko/rokoko_body.h"
+#include "tests/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(rokoko) {
   static dance::RokokoReader reader, again;
   static dance::RokokoWriter writer;
   if (reader.read({data, size}) != dance::RokokoFault::kNone) return 0;

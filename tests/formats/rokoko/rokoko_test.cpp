@@ -12,7 +12,7 @@
 namespace dance {
 namespace {
 
-std::span<const std::uint8_t> bytes_of(std::string_view text) {
+std::span<const std::uint8_t> rokoko_bytes(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
@@ -86,7 +86,7 @@ TEST(Rokoko, ATurnToTheLeftIsAnotherWayRoundInStudio) {
 TEST(Rokoko, WhatIsWrittenIsReadAgain) {
   const auto frame = rokoko_couple(7.25);
   RokokoReader reader;
-  ASSERT_EQ(reader.read(bytes_of(couple_text(7.25))), RokokoFault::kNone);
+  ASSERT_EQ(reader.read(rokoko_bytes(couple_text(7.25))), RokokoFault::kNone);
   const RokokoFrame& read = reader.frame();
   EXPECT_EQ(read.timestamp_s, 7.25);
   EXPECT_EQ(read.fps, 60.0);
@@ -114,9 +114,10 @@ TEST(Rokoko, EitherWayOfWritingTheVersionIsRead) {
   const std::string text = couple_text();
   RokokoReader reader;
   for (const char* version : {"3", "3.0", "\"3.0\"", "\"3\""})
-    EXPECT_EQ(reader.read(bytes_of(with(text, "\"3,0\"", version))), RokokoFault::kNone) << version;
+    EXPECT_EQ(reader.read(rokoko_bytes(with(text, "\"3,0\"", version))), RokokoFault::kNone)
+        << version;
   for (const char* version : {"2", "\"2,5\"", "4", "null", "{}"})
-    EXPECT_EQ(reader.read(bytes_of(with(text, "\"3,0\"", version))), RokokoFault::kOtherVersion)
+    EXPECT_EQ(reader.read(rokoko_bytes(with(text, "\"3,0\"", version))), RokokoFault::kOtherVersion)
         << version;
 }
 
@@ -125,7 +126,7 @@ TEST(Rokoko, KeysThatAreNotKnownChangeNothing) {
                           R"("characters":[{"name":"x","joints":[{"position":{"x":1}}]}],"q":{})");
   text = with(text, R"("hip":)", R"("tail":{"position":{"x":1}},"hip":)");
   RokokoReader reader;
-  ASSERT_EQ(reader.read(bytes_of(text)), RokokoFault::kNone);
+  ASSERT_EQ(reader.read(rokoko_bytes(text)), RokokoFault::kNone);
   EXPECT_EQ(reader.frame().actors.size(), 2u);
   EXPECT_TRUE(reader.frame().actors[0].has(RokokoBody::kHip));
 }
@@ -139,7 +140,7 @@ TEST(Rokoko, AJointThatIsNotWholeOrNotARotationIsAbsent) {
       {R"("hip":{"position":)", R"("hip":{"position":[1,2,3],"p":)"},
       {R"("hip":)", R"("hop":)"}};
   for (const auto& [what, by] : kDamages) {
-    ASSERT_EQ(reader.read(bytes_of(with(text, what, by))), RokokoFault::kNone) << by;
+    ASSERT_EQ(reader.read(rokoko_bytes(with(text, what, by))), RokokoFault::kNone) << by;
     EXPECT_FALSE(reader.frame().actors[0].has(RokokoBody::kHip)) << by;
     EXPECT_TRUE(reader.frame().actors[0].has(RokokoBody::kHead));
   }
@@ -149,7 +150,7 @@ TEST(Rokoko, EachPrefixIsRefused) {
   const std::string text = small_text();
   RokokoReader reader;
   for (std::size_t size = 0; size < text.size(); ++size)
-    EXPECT_NE(reader.read(bytes_of(text).first(size)), RokokoFault::kNone) << size;
+    EXPECT_NE(reader.read(rokoko_bytes(text).first(size)), RokokoFault::kNone) << size;
 }
 
 TEST(Rokoko, EachFlippedBitGivesAFaultOrFiniteJoints) {
@@ -158,7 +159,7 @@ TEST(Rokoko, EachFlippedBitGivesAFaultOrFiniteJoints) {
   for (std::size_t bit = 0; bit < 8 * text.size(); ++bit) {
     std::string damaged = text;
     damaged[bit / 8] = static_cast<char>(damaged[bit / 8] ^ (1 << bit % 8));
-    if (reader.read(bytes_of(damaged)) != RokokoFault::kNone) continue;
+    if (reader.read(rokoko_bytes(damaged)) != RokokoFault::kNone) continue;
     for (const RokokoActor& actor : reader.frame().actors)
       for (std::size_t j = 0; j < kRokokoJointCount; ++j) {
         if (!actor.present[j]) continue;
@@ -170,23 +171,23 @@ TEST(Rokoko, EachFlippedBitGivesAFaultOrFiniteJoints) {
 
 TEST(Rokoko, DepthNamesAndActorsAreBounded) {
   RokokoReader reader;
-  EXPECT_EQ(reader.read(bytes_of(std::string(1'000'000, '['))), RokokoFault::kNotJson);
+  EXPECT_EQ(reader.read(rokoko_bytes(std::string(1'000'000, '['))), RokokoFault::kNotJson);
   std::string deep;
   for (int i = 0; i < 50'000; ++i) deep += R"({"scene":)";
-  EXPECT_EQ(reader.read(bytes_of(deep)), RokokoFault::kNotJson);
+  EXPECT_EQ(reader.read(rokoko_bytes(deep)), RokokoFault::kNotJson);
   const auto scene = [](const std::string& actors) {
     return R"({"version":"3,0","scene":{"timestamp":1,"actors":[)" + actors + "]}}";
   };
-  EXPECT_EQ(reader.read(bytes_of(scene(R"({"name":")" + std::string(65, 'n') + "\"}"))),
+  EXPECT_EQ(reader.read(rokoko_bytes(scene(R"({"name":")" + std::string(65, 'n') + "\"}"))),
             RokokoFault::kBadName);
-  EXPECT_EQ(reader.read(bytes_of(scene("{}"))), RokokoFault::kBadName);
-  EXPECT_EQ(reader.read(bytes_of(scene(R"({"name":"a"})"))), RokokoFault::kNone);
+  EXPECT_EQ(reader.read(rokoko_bytes(scene("{}"))), RokokoFault::kBadName);
+  EXPECT_EQ(reader.read(rokoko_bytes(scene(R"({"name":"a"})"))), RokokoFault::kNone);
   std::string many = R"({"name":"a"})";
   for (std::size_t i = 0; i < RokokoFrame::kMostActors; ++i) many += R"(,{"name":"a"})";
-  EXPECT_EQ(reader.read(bytes_of(scene(many))), RokokoFault::kTooManyActors);
-  EXPECT_EQ(reader.read(bytes_of(R"({"version":"3,0","scene":{"actors":[]}})")),
+  EXPECT_EQ(reader.read(rokoko_bytes(scene(many))), RokokoFault::kTooManyActors);
+  EXPECT_EQ(reader.read(rokoko_bytes(R"({"version":"3,0","scene":{"actors":[]}})")),
             RokokoFault::kNoScene);
-  EXPECT_EQ(reader.read(bytes_of("\xff\xfe")), RokokoFault::kNotJson);
+  EXPECT_EQ(reader.read(rokoko_bytes("\xff\xfe")), RokokoFault::kNotJson);
 }
 
 TEST(Rokoko, ADatagramWithoutRoomForAnActorEndsBeforeIt) {
@@ -197,7 +198,7 @@ TEST(Rokoko, ADatagramWithoutRoomForAnActorEndsBeforeIt) {
   const auto written = writer.write(*frame, 2, one + 100);
   EXPECT_EQ(written.actors, 1u);
   EXPECT_LE(written.text.size(), one + 100);
-  ASSERT_EQ(reader.read(bytes_of(written.text)), RokokoFault::kNone);
+  ASSERT_EQ(reader.read(rokoko_bytes(written.text)), RokokoFault::kNone);
   EXPECT_EQ(reader.frame().actors.size(), 1u);
 }
 

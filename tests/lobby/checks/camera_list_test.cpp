@@ -5,7 +5,7 @@
 namespace dance {
 namespace {
 
-TEST(CameraList, ReadsWhatTheProgramPrints) {
+TEST(LobbyCameraList, ReadsWhatTheProgramPrints) {
   const auto list =
       parse_camera_list(R"([{"device":"/dev/video0","name":"HD Webcam","socket":"usb-1",)"
                         R"("mode":"1280x720 YUYV at 30 Hz","trouble":""},)"
@@ -20,13 +20,13 @@ TEST(CameraList, ReadsWhatTheProgramPrints) {
   EXPECT_EQ((*list)[1].trouble, "/dev/video2: in use");
 }
 
-TEST(CameraList, NoCameraIsAnEmptyList) {
+TEST(LobbyCameraList, NoCameraIsAnEmptyList) {
   const auto list = parse_camera_list("[]");
   ASSERT_TRUE(list);
   EXPECT_TRUE(list->empty());
 }
 
-TEST(CameraList, RefusesWhatIsNoList) {
+TEST(LobbyCameraList, RefusesWhatIsNoList) {
   EXPECT_FALSE(parse_camera_list(""));
   EXPECT_FALSE(parse_camera_list("[{\"device\":\"/dev/video0\""));
   EXPECT_FALSE(parse_camera_list("{}"));
@@ -35,7 +35,7 @@ TEST(CameraList, RefusesWhatIsNoList) {
   EXPECT_FALSE(parse_camera_list(R"([{"device":"--record"}])")) << "no option is a device";
 }
 
-TEST(CameraList, ANameMovesNoCursor) {
+TEST(LobbyCameraList, ANameMovesNoCursor) {
   const auto list = parse_camera_list(R"([{"device":"/dev/video0","name":"HD\u001b[2J"}])");
   ASSERT_TRUE(list);
   EXPECT_EQ((*list)[0].name, "HD?[2J");

@@ -9,7 +9,7 @@
 namespace dance {
 namespace {
 
-using Server = SoundState::Server;
+using SoundServer = SoundState::Server;
 using enum DeviceState;
 
 SoundLevel spoken() {
@@ -25,37 +25,39 @@ std::vector<Text> told(const SoundState& state, const SoundLevel& level, bool ha
 }
 
 TEST(SoundAdvice, AVoiceThatIsHeardIsGood) {
-  EXPECT_EQ(told({Server::kHere, kWorks, kWorks}, spoken()), std::vector{Text::kSoundGood});
-  EXPECT_EQ(told({Server::kHere, kWorks, kWorks}, {}), std::vector{Text::kSoundSaySomething});
+  EXPECT_EQ(told({SoundServer::kHere, kWorks, kWorks}, spoken()), std::vector{Text::kSoundGood});
+  EXPECT_EQ(told({SoundServer::kHere, kWorks, kWorks}, {}), std::vector{Text::kSoundSaySomething});
 }
 
 TEST(SoundAdvice, WithoutAServerThereIsOneText) {
-  EXPECT_EQ(told({Server::kNotBuilt, kGone, kGone}, {}), std::vector{Text::kSoundNotBuilt});
-  EXPECT_EQ(told({Server::kNone, kGone, kGone}, {}), std::vector{Text::kSoundNoServer});
-  EXPECT_EQ(told({Server::kConnecting, kOpening, kOpening}, {}), std::vector{Text::kSoundOpening});
+  EXPECT_EQ(told({SoundServer::kNotBuilt, kGone, kGone}, {}), std::vector{Text::kSoundNotBuilt});
+  EXPECT_EQ(told({SoundServer::kNone, kGone, kGone}, {}), std::vector{Text::kSoundNoServer});
+  EXPECT_EQ(told({SoundServer::kConnecting, kOpening, kOpening}, {}),
+            std::vector{Text::kSoundOpening});
 }
 
 TEST(SoundAdvice, EachTroubleOfADeviceHasItsText) {
   SoundLevel silent;
   silent.is_silent = true;
-  EXPECT_EQ(told({Server::kHere, kWorks, kWorks}, silent), std::vector{Text::kSoundSilent});
-  EXPECT_EQ(told({Server::kHere, kMuted, kWorks}, silent), std::vector{Text::kSoundMicrophoneMuted})
+  EXPECT_EQ(told({SoundServer::kHere, kWorks, kWorks}, silent), std::vector{Text::kSoundSilent});
+  EXPECT_EQ(told({SoundServer::kHere, kMuted, kWorks}, silent),
+            std::vector{Text::kSoundMicrophoneMuted})
       << "what is known to be muted is not guessed at";
-  EXPECT_EQ(told({Server::kHere, kGone, kWorks}, {}), std::vector{Text::kSoundMicrophoneGone});
-  EXPECT_EQ(told({Server::kHere, kNone, kWorks}, {}), std::vector{Text::kSoundMicrophoneNone});
-  EXPECT_EQ(told({Server::kHere, kWorks, kMuted}, spoken()),
+  EXPECT_EQ(told({SoundServer::kHere, kGone, kWorks}, {}), std::vector{Text::kSoundMicrophoneGone});
+  EXPECT_EQ(told({SoundServer::kHere, kNone, kWorks}, {}), std::vector{Text::kSoundMicrophoneNone});
+  EXPECT_EQ(told({SoundServer::kHere, kWorks, kMuted}, spoken()),
             std::vector{Text::kSoundLoudspeakerMuted});
-  EXPECT_EQ(told({Server::kHere, kWorks, kGone}, spoken()),
+  EXPECT_EQ(told({SoundServer::kHere, kWorks, kGone}, spoken()),
             std::vector{Text::kSoundLoudspeakerGone});
-  EXPECT_EQ(told({Server::kHere, kWorks, kNone}, spoken()),
+  EXPECT_EQ(told({SoundServer::kHere, kWorks, kNone}, spoken()),
             std::vector{Text::kSoundLoudspeakerNowhere});
   SoundLevel loud = spoken();
   loud.clips = true;
-  EXPECT_EQ(told({Server::kHere, kWorks, kWorks}, loud), std::vector{Text::kSoundClips});
+  EXPECT_EQ(told({SoundServer::kHere, kWorks, kWorks}, loud), std::vector{Text::kSoundClips});
 }
 
 TEST(SoundAdvice, AnEchoIsToldBesideTheRest) {
-  EXPECT_EQ(told({Server::kHere, kWorks, kMuted}, spoken(), true),
+  EXPECT_EQ(told({SoundServer::kHere, kWorks, kMuted}, spoken(), true),
             (std::vector{Text::kSoundLoudspeakerMuted, Text::kSoundEchoHeard}));
 }
 

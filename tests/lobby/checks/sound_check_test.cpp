@@ -14,7 +14,7 @@
 namespace dance {
 namespace {
 
-std::vector<float> tone(float amplitude, double seconds) {
+std::vector<float> speech_tone(float amplitude, double seconds) {
   std::vector<float> samples(static_cast<std::size_t>(seconds * 48'000.0));
   for (std::size_t i = 0; i < samples.size(); ++i)
     samples[i] = amplitude * static_cast<float>(std::sin(2.0 * std::numbers::pi * 440.0 *
@@ -65,7 +65,7 @@ class SoundCheckTest : public testing::Test {
 TEST_F(SoundCheckTest, HearsHowLoudOneSpeaks) {
   open_rooms();
   start();
-  ASSERT_TRUE(rooms_->play("mouth", tone(0.1f, 30.0)));
+  ASSERT_TRUE(rooms_->play("mouth", speech_tone(0.1f, 30.0)));
   EXPECT_TRUE(comes_to([&] { return std::abs(check_->level().rms_db + 23.0f) < 1.0f; }))
       << check_->level().rms_db << " " << told();
   EXPECT_NEAR(check_->level().held_db, -20.0f, 1.0f);
@@ -106,7 +106,7 @@ TEST_F(SoundCheckTest, ADeviceThatIsNotThereIsToldAndAnotherCanBeChosen) {
   start({"alsa_input.gone", "alsa_output.gone"});
   ASSERT_TRUE(comes_to([&] { return is_told(Text::kSoundMicrophoneGone); })) << told();
   EXPECT_TRUE(is_told(Text::kSoundLoudspeakerGone));
-  ASSERT_TRUE(rooms_->play("mouth", tone(0.1f, 30.0)));
+  ASSERT_TRUE(rooms_->play("mouth", speech_tone(0.1f, 30.0)));
   check_->choose({"mouth.monitor", "speaker"});
   EXPECT_TRUE(comes_to([&] { return check_->is_good(); })) << told();
 }
@@ -137,8 +137,11 @@ TEST_F(SoundCheckTest, MeasuresTheWayThereAndBack) {
   start();
   // The level is known: the microphone works.
   ASSERT_TRUE(comes_to([&] { return check_->level().windows > 2; })) << told();
-  check_->measure_round_trip();
-  ASSERT_TRUE(comes_to([&] { return check_->round_trip().has_value(); })) << told();
+  // A loaded machine's sound has gaps: then it is measured again.
+  for (int i = 0; i == 0 || (i < 5 && !check_->round_trip()->is_heard); ++i) {
+    check_->measure_round_trip();
+    ASSERT_TRUE(comes_to([&] { return check_->round_trip().has_value(); })) << told();
+  }
   EXPECT_TRUE(check_->round_trip()->is_heard) << check_->round_trip()->likeness;
   EXPECT_GT(check_->round_trip()->delay, Duration::ms(30)) << "what the room takes alone";
   EXPECT_LT(check_->round_trip()->delay, Duration::s(1));

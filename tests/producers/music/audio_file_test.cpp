@@ -1,9 +1,11 @@
 #include "producers/music/decode/audio_file.h"
 
 #include <gtest/gtest.h>
+#include <sndfile.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -85,6 +87,89 @@ TEST_F(AudioFileTest, NamesTheFileAndTheCure) {
   EXPECT_EQ(open_error(path("text.ogg")).find(path("text.ogg")), 0u);
   write_wav(path("empty.wav"), {}, 1, 44100);
   EXPECT_NE(open_error(path("empty.wav")).find("empty"), std::string::npos);
+}
+
+// Encoded by libsndfile.
+void write_encoded(const std::string& file, int format, const std::vector<float>& mono,
+                   int rate_hz) {
+  SF_INFO info{};
+  info.samplerate = rate_hz;
+  info.channels = 1;
+  info.format = format;
+  SNDFILE* out = sf_open(file.c_str(), SFM_WRITE, &info);
+  ASSERT_NE(out, nullptr) << sf_strerror(nullptr);
+  const auto frames = static_cast<sf_count_t>(mono.size());
+  EXPECT_EQ(sf_writef_float(out, mono.data(), frames), frames);
+  sf_close(out);
+}
+
+std::vector<float> tone(std::size_t frames) {
+  std::vector<float> mono(frames);
+  for (std::size_t n = 0; n < frames; ++n)
+    mono[n] = 0.5f * std::sin(0.05f * static_cast<float>(n) + 1e-6f * static_cast<float>(n * n));
+  return mono;
+}
+
+std::vector<float> all_of(AudioFile& audio) {
+  std::vector<float> all, block(5000);
+  for (;;) {
+    const auto read = audio.read(block);
+    EXPECT_TRUE(read.has_value()) << read.error().what;
+    if (!read || *read == 0) return all;
+    all.insert(all.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(*read));
+  }
+}
+
+// The whole file, its length, and the same samples after going back and on.
+void expect_plays_to_its_end(const std::string& file, std::size_t frames) {
+  auto audio = AudioFile::open(file);
+  ASSERT_TRUE(audio.has_value()) << audio.error().what;
+  EXPECT_EQ(audio->length_frames(), static_cast<std::int64_t>(frames));
+  const std::vector<float> all = all_of(*audio);
+  ASSERT_EQ(all.size(), frames);
+  for (const std::size_t at : {frames / 2, std::size_t{0}, frames - 100}) {
+    ASSERT_TRUE(audio->seek(static_cast<std::int64_t>(at)).has_value());
+    std::vector<float> some(50);
+    ASSERT_EQ(audio->read(some).value_or(0), some.size());
+    for (std::size_t i = 0; i < some.size(); ++i)
+      ASSERT_NEAR(some[i], all[at + i], 1e-6f) << file << " at " << at;
+  }
+}
+
+TEST_F(AudioFileTest, PlaysAFlacWhoseLengthIsUnknown) {
+  write_encoded(path("streamed.flac"), SF_FORMAT_FLAC | SF_FORMAT_PCM_16, tone(24000), 8000);
+  std::string bytes = text_of(path("streamed.flac"));
+  ASSERT_EQ(bytes.substr(0, 4), "fLaC");
+  // The 36 bits of STREAMINFO that tell the number of samples.
+  bytes[21] = static_cast<char>(bytes[21] & 0xF0);
+  for (std::size_t i = 22; i < 26; ++i) bytes[i] = 0;
+  std::ofstream(path("streamed.flac"), std::ios::binary | std::ios::trunc) << bytes;
+  expect_plays_to_its_end(path("streamed.flac"), 24000);
+}
+
+TEST_F(AudioFileTest, PlaysACutOggToItsEnd) {
+  write_encoded(path("song.ogg"), SF_FORMAT_OGG | SF_FORMAT_VORBIS, tone(200000), 44100);
+  const std::string bytes = text_of(path("song.ogg"));
+  std::ofstream(path("cut.ogg"), std::ios::binary) << bytes.substr(0, bytes.size() * 2 / 3);
+  auto audio = AudioFile::open(path("cut.ogg"));
+  ASSERT_TRUE(audio.has_value()) << audio.error().what;
+  const auto frames = static_cast<std::size_t>(audio->length_frames());
+  EXPECT_GT(frames, 50000u);
+  EXPECT_LT(frames, 200000u);
+  expect_plays_to_its_end(path("cut.ogg"), frames);
+}
+
+TEST_F(AudioFileTest, PlaysAWavWhoseRecorderWasKilled) {
+  std::string bytes = wav_bytes(tone(20000), 1, 8000);
+  for (const std::size_t at : {4, 40})
+    for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = 0;
+  std::ofstream(path("killed.wav"), std::ios::binary) << bytes;
+  expect_plays_to_its_end(path("killed.wav"), 20000);
+}
+
+TEST_F(AudioFileTest, PlaysAFormatThatCannotSeek) {
+  write_encoded(path("gsm.wav"), SF_FORMAT_WAV | SF_FORMAT_GSM610, tone(16000), 8000);
+  expect_plays_to_its_end(path("gsm.wav"), 16000);
 }
 
 TEST_F(AudioFileTest, SurvivesEveryTruncation) {

@@ -4,8 +4,9 @@
 
 #include "core/base/assert.h"
 #include "producers/music/tracker/beat_tracker.h"
+#include "tests/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(beat_model) {
   // Of 230 kB no mutation would be whole: half of the input stands for the first weights, half for
   // the last patterns.
   static const std::vector<std::uint8_t> kWhole =

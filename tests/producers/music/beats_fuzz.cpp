@@ -7,8 +7,9 @@
 #include "core/base/assert.h"
 #include "core/base/beat.h"
 #include "producers/music/beats_file.h"
+#include "tests/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(beats_file) {
   const auto grid = dance::parse_beats(std::string_view(reinterpret_cast<const char*>(data), size));
   if (!grid) {
     DANCE_ASSERT(!grid.error().what.empty());

@@ -94,7 +94,8 @@ TEST(RoomMusic, StoppedStandsWhereItStopped) {
 TEST(MusicTitle, IsTheFilesNameWithinATitlesLength) {
   EXPECT_EQ(music_title("songs/No Frills Salsa.ogg").view(), "No Frills Salsa");
   EXPECT_EQ(music_title("song").view(), "song");
-  EXPECT_EQ(music_title("a\nb.ogg").view(), "a");
+  EXPECT_EQ(music_title("a\nb.ogg").view(), "a?b");
+  EXPECT_EQ(music_title("song\u202egpj.ogg").view(), "song?gpj");
   EXPECT_EQ(music_title("").view(), "music");
   const std::string notes = "\xe2\x99\xab";
   std::string name;
@@ -103,13 +104,23 @@ TEST(MusicTitle, IsTheFilesNameWithinATitlesLength) {
   EXPECT_EQ(music_title("x" + name).view(), ("x" + name).substr(0, 61)) << "no half letter";
 }
 
-TEST(MusicControl, TakesVolumesAndNothingElse) {
-  EXPECT_EQ(parse_music_volume("volume 0.4"), 0.4);
-  EXPECT_EQ(parse_music_volume("volume 0"), 0.0);
-  EXPECT_EQ(parse_music_volume("volume 1"), 1.0);
-  for (const char* wrong : {"", "volume", "volume ", "volume 1.01", "volume -0.1", "volume 0.5x",
-                            "volume nan", "Volume 1", "volume  1", "mute"})
-    EXPECT_FALSE(parse_music_volume(wrong)) << wrong;
+TEST(MusicControl, ParsesVolumesAndCommandsOfTheBandAndNothingElse) {
+  for (const auto& [line, volume] : {std::pair{"volume 0.4", 0.4}, {"volume 0", 0.0}}) {
+    const auto command = parse_music_command(line);
+    ASSERT_TRUE(command) << line;
+    EXPECT_EQ(command->what, MusicCommand::What::kVolume);
+    EXPECT_EQ(command->volume, volume);
+  }
+  for (const char* line : {"volume 1", "next", "play", "pause", "slower", "faster", "lock",
+                           "unlock", "style bachata"}) {
+    const auto command = parse_music_command(line);
+    ASSERT_TRUE(command) << line;
+    EXPECT_EQ(text_of(*command), line);
+  }
+  for (const char* wrong :
+       {"", "volume", "volume ", "volume 1.01", "volume -0.1", "volume 0.5x", "volume nan",
+        "Volume 1", "volume  1", "mute", "next ", "style", "style a-name-that-is-too-long"})
+    EXPECT_FALSE(parse_music_command(wrong)) << wrong;
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include "tests/formats/natnet/natnet_figure.h"
 #include "tests/formats/natnet/natnet_packets.h"
 #include "tests/formats/rokoko/rokoko_couple.h"
-#include "tests/producers/rokoko/recording_sink.h"
+#include "tests/producers/rokoko/pose_log_sink.h"
 
 namespace dance {
 namespace {
@@ -41,7 +41,7 @@ class NatNetStream : public testing::Test {
  protected:
   void SetUp() override { poller_ = std::move(*Poller::create()); }
   void open(const std::string& more = "", const std::string& actor = "") {
-    sink_ = RecordingSink();
+    sink_ = PoseLogSink();
     receiver_.reset();
     const std::string address = "127.0.0.1:" + std::to_string(*free_loopback_port());
     auto opened = NatNetReceiver::open({kAna, address + more, actor}, sink_, *poller_);
@@ -78,7 +78,7 @@ class NatNetStream : public testing::Test {
   }
 
   std::unique_ptr<Poller> poller_;
-  RecordingSink sink_;
+  PoseLogSink sink_;
   std::unique_ptr<NatNetReceiver> receiver_;
   MonoTime began_ = mono_now();
 };
@@ -248,9 +248,9 @@ TEST_F(NatNetStream, AServerThatIsNamedIsAskedAndKeptAlive) {
 
 TEST_F(NatNetStream, TwoReceiversShareAGroup) {
   const std::string group = "239.255.42.99:1511?interface=127.0.0.1&version=3.1";
-  RecordingSink sinks[2];
+  PoseLogSink sinks[2];
   std::vector<std::unique_ptr<NatNetReceiver>> receivers;
-  for (RecordingSink& sink : sinks) {
+  for (PoseLogSink& sink : sinks) {
     auto opened = NatNetReceiver::open({kAna, group, ""}, sink, *poller_);
     ASSERT_TRUE(opened.has_value()) << opened.error().what;
     receivers.push_back(std::move(*opened));

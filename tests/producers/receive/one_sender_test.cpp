@@ -10,37 +10,37 @@ using Verdict = OneSender::Verdict;
 const Address kFirst = Address::loopback(5000);
 const Address kSecond = Address::loopback(5001);
 
-MonoTime at_ms(std::int64_t ms) { return MonoTime::from_us(7'000'000) + Duration::ms(ms); }
+MonoTime sender_time(std::int64_t ms) { return MonoTime::from_us(7'000'000) + Duration::ms(ms); }
 
 TEST(OneSender, ReadsAnyoneUntilAPacketMadeAPose) {
   OneSender sender;
   for (int i = 0; i < 10; ++i) {
-    EXPECT_EQ(sender.admit(kSecond, at_ms(i)), Verdict::kRead);
-    EXPECT_EQ(sender.admit(kFirst, at_ms(i)), Verdict::kRead);
+    EXPECT_EQ(sender.admit(kSecond, sender_time(i)), Verdict::kRead);
+    EXPECT_EQ(sender.admit(kFirst, sender_time(i)), Verdict::kRead);
   }
   EXPECT_FALSE(sender.is_kept());
-  sender.keep(kFirst, at_ms(10));
-  EXPECT_EQ(sender.admit(kSecond, at_ms(11)), Verdict::kOther);
-  EXPECT_EQ(sender.admit(kFirst, at_ms(12)), Verdict::kRead);
+  sender.keep(kFirst, sender_time(10));
+  EXPECT_EQ(sender.admit(kSecond, sender_time(11)), Verdict::kOther);
+  EXPECT_EQ(sender.admit(kFirst, sender_time(12)), Verdict::kRead);
   EXPECT_EQ(sender.others(), 1u);
 }
 
 TEST(OneSender, IsReleasedOnceWhenItIsSilent) {
   OneSender sender;
-  sender.keep(kFirst, at_ms(0));
-  EXPECT_EQ(sender.admit(kFirst, at_ms(1500)), Verdict::kRead);
-  EXPECT_EQ(sender.admit(kSecond, at_ms(3499)), Verdict::kOther);
-  EXPECT_EQ(sender.admit(kSecond, at_ms(3500)), Verdict::kReadAnew);
+  sender.keep(kFirst, sender_time(0));
+  EXPECT_EQ(sender.admit(kFirst, sender_time(1500)), Verdict::kRead);
+  EXPECT_EQ(sender.admit(kSecond, sender_time(3499)), Verdict::kOther);
+  EXPECT_EQ(sender.admit(kSecond, sender_time(3500)), Verdict::kReadAnew);
   EXPECT_FALSE(sender.is_kept());
-  EXPECT_EQ(sender.admit(kSecond, at_ms(3501)), Verdict::kRead);
-  EXPECT_EQ(sender.admit(kFirst, at_ms(3502)), Verdict::kRead);
+  EXPECT_EQ(sender.admit(kSecond, sender_time(3501)), Verdict::kRead);
+  EXPECT_EQ(sender.admit(kFirst, sender_time(3502)), Verdict::kRead);
 }
 
 TEST(OneSender, TheSameAfterAPauseIsRead) {
   OneSender sender;
-  sender.keep(kFirst, at_ms(0));
-  EXPECT_EQ(sender.admit(kFirst, at_ms(60'000)), Verdict::kRead);
-  EXPECT_EQ(sender.admit(kSecond, at_ms(60'001)), Verdict::kOther);
+  sender.keep(kFirst, sender_time(0));
+  EXPECT_EQ(sender.admit(kFirst, sender_time(60'000)), Verdict::kRead);
+  EXPECT_EQ(sender.admit(kSecond, sender_time(60'001)), Verdict::kOther);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "consumers/rokoko/rokoko_consumer.h"
@@ -11,13 +13,13 @@
 #include "formats/bvh/clip_file.h"
 #include "formats/rokoko/rokoko_writer.h"
 #include "tests/formats/rokoko/rokoko_couple.h"
-#include "tests/producers/rokoko/recording_sink.h"
+#include "tests/producers/rokoko/pose_log_sink.h"
 
 namespace dance {
 namespace {
 
-constexpr float kTenthOfAMillimetre = 1e-4f;
-const GuestId kAna = GuestId::parse("ana").value();
+constexpr float kRokokoTolerance_m = 1e-4f;
+const GuestId kRokokoAna = GuestId::parse("ana").value();
 const GuestId kBen = GuestId::parse("ben").value();
 
 class RokokoPair : public testing::Test {
@@ -48,6 +50,8 @@ class RokokoPair : public testing::Test {
   // All joints but the chest, which Studio's bodies do not have. Millimetres.
   struct Errors {
     float joints_m = 0.0f;
+    // Studio's spine is one bone up to the upper chest: a bent chest changes its length.
+    float spine_m = 0.0f;
     float chest_m = 0.0f;
     float turned_rad = 0.0f;
   };
@@ -55,6 +59,10 @@ class RokokoPair : public testing::Test {
     BodyFrames was, is;
     forward_kinematics(skeleton, pose, was);
     forward_kinematics(sink_.skeleton, sink_.poses.back(), is);
+    const auto spine_m = [](const BodyFrames& frames) {
+      return (frames.position(Bone::kUpperChest) - frames.position(Bone::kSpine)).norm();
+    };
+    errors.spine_m = std::max(errors.spine_m, std::abs(spine_m(was) - spine_m(is)));
     for (std::size_t b = 0; b < kBoneCount; ++b) {
       const float apart_m = (was.p_WB_m[b] - is.p_WB_m[b]).norm();
       float& worst = static_cast<Bone>(b) == Bone::kChest ? errors.chest_m : errors.joints_m;
@@ -71,7 +79,7 @@ class RokokoPair : public testing::Test {
 
   std::unique_ptr<Poller> poller_;
   std::string address_;
-  RecordingSink sink_;
+  PoseLogSink sink_;
   std::unique_ptr<RokokoReceiver> receiver_;
   MonoTime began_ = mono_now();
 };
@@ -81,18 +89,18 @@ TEST_F(RokokoPair, ASalsaGoesThroughWithEachJointInItsPlace) {
     open_receiver();
     const auto sender = consumer(dialect);
     SalsaDancer dancer = salsa_dancer(SalsaRole::kLead);
-    sender->on_skeleton(kAna, dancer.skeleton(), began_);
-    sink_ = RecordingSink();
+    sender->on_skeleton(kRokokoAna, dancer.skeleton(), began_);
+    sink_ = PoseLogSink();
     Errors errors;
     for (int i = 0; i < 500; ++i) {
       Pose pose;
       dancer.dance_at(Duration::ms(16 * i), pose);
-      sender->on_pose(kAna, at(pose, 16 * i), began_ + Duration::ms(16 * i));
+      sender->on_pose(kRokokoAna, at(pose, 16 * i), began_ + Duration::ms(16 * i));
       wait_for_poses(static_cast<std::size_t>(i) + 1);
       ASSERT_EQ(sink_.poses.size(), static_cast<std::size_t>(i) + 1);
       compare(dancer.skeleton(), pose, errors);
     }
-    EXPECT_LT(errors.joints_m, kTenthOfAMillimetre);
+    EXPECT_LT(errors.joints_m, kRokokoTolerance_m);
     EXPECT_LT(errors.turned_rad, 2e-3f);
     EXPECT_LT(errors.chest_m, 0.02f);
     EXPECT_EQ(sink_.poses.front().presence, kAllBones);
@@ -119,21 +127,21 @@ TEST_F(RokokoPair, RealDancesGoThroughWithEachJointInItsPlace) {
     ++danced;
     open_receiver();
     const auto sender = consumer(RokokoConsumer::Dialect::kLz4);
-    sink_ = RecordingSink();
-    sender->on_skeleton(kAna, loaded->clip.skeleton, began_);
+    sink_ = PoseLogSink();
+    sender->on_skeleton(kRokokoAna, loaded->clip.skeleton, began_);
     Errors errors;
     const std::size_t step = std::max<std::size_t>(1, loaded->clip.frames.size() / 300);
     std::size_t sent = 0;
     for (std::size_t f = 0; f < loaded->clip.frames.size(); f += step) {
       const auto ms = static_cast<std::int64_t>(16 * sent);
       const Pose pose = at(loaded->clip.frames[f], ms);
-      sender->on_pose(kAna, pose, began_ + Duration::ms(ms));
+      sender->on_pose(kRokokoAna, pose, began_ + Duration::ms(ms));
       wait_for_poses(++sent);
       ASSERT_EQ(sink_.poses.size(), sent) << receiver_->summary();
       compare(loaded->clip.skeleton, pose, errors);
     }
-    // A trunk that stretches is told again after a second, which is longer than this lasts.
-    EXPECT_LT(errors.joints_m, 1e-3f) << take;
+    // A trunk that stretches is published again after a second, which is longer than this lasts.
+    EXPECT_LT(errors.joints_m, std::max(1e-3f, errors.spine_m + kRokokoTolerance_m)) << take;
     EXPECT_LT(errors.turned_rad, 2e-3f) << take;
     RecordProperty("chest_mm", std::to_string(1000.0f * errors.chest_m));
     receiver_.reset();
@@ -148,8 +156,8 @@ TEST_F(RokokoPair, FingersGoThrough) {
   for (std::size_t f = 0; f < kFingerBoneCount; ++f)
     hands.R_PB[f] = Eigen::AngleAxisf(0.02f * static_cast<float>(f), Eigen::Vector3f::UnitZ());
   hands.presence = (1u << kFingerBoneCount) - 1;
-  sender->on_hands(kAna, hands, began_);
-  sender->on_pose(kAna, at(Pose(), 0), began_);
+  sender->on_hands(kRokokoAna, hands, began_);
+  sender->on_pose(kRokokoAna, at(Pose(), 0), began_);
   wait_for_poses(1);
   ASSERT_EQ(sink_.hands.size(), 1u);
   EXPECT_EQ(sink_.hands[0].presence, hands.presence);
@@ -162,7 +170,7 @@ TEST_F(RokokoPair, TheActorThatIsAskedForIsTaken) {
   const auto sender = consumer(RokokoConsumer::Dialect::kLz4);
   Pose pose;
   pose.p_WH_m.x() = 1.0f;
-  sender->on_pose(kAna, at(pose, 0), began_);
+  sender->on_pose(kRokokoAna, at(pose, 0), began_);
   pose.p_WH_m.x() = -1.0f;
   sender->on_pose(kBen, at(pose, 1), began_ + Duration::ms(1));
   wait_for_poses(1);
@@ -256,7 +264,7 @@ TEST_F(RokokoPair, DamageIsCountedByCauseAndChangesNothing) {
 
 TEST_F(RokokoPair, APortThatIsTakenIsNamed) {
   open_receiver();
-  const auto second = RokokoReceiver::open({kAna, address_, ""}, sink_, *poller_);
+  const auto second = RokokoReceiver::open({kRokokoAna, address_, ""}, sink_, *poller_);
   ASSERT_FALSE(second.has_value());
   EXPECT_NE(second.error().what.find("is taken"), std::string::npos);
 }

@@ -5,8 +5,9 @@
 
 #include "core/base/assert.h"
 #include "producers/trackers/net/tracker_model.h"
+#include "tests/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(tracker_model) {
   // Of 470 kB no mutation would be whole: the input stands for the first weights and the last.
   static const std::vector<std::uint8_t> kWhole =
       dance::write_tracker_model(*dance::built_in_tracker_model());

@@ -5,6 +5,7 @@
 
 #include "core/base/assert.h"
 #include "producers/vmc/vmc_receiver.h"
+#include "tests/fuzz_target.h"
 
 namespace {
 
@@ -24,7 +25,7 @@ class CheckedCaptures : public dance::CaptureSink {
 }  // namespace
 
 // The first two bytes cut the rest into packets of that many bytes.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(vmc) {
   if (size < 2) return 0;
   const std::size_t packet = std::size_t{data[0]} * 256 + data[1] + 1;
   CheckedCaptures sink;

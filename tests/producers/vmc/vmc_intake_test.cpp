@@ -14,9 +14,9 @@
 namespace dance {
 namespace {
 
-const GuestId kAlice = *GuestId::parse("alice");
+const GuestId kVmcAlice = *GuestId::parse("alice");
 
-MonoTime at_ms(double ms) { return MonoTime::from_us(9'000'000) + Duration::seconds(ms * 1e-3); }
+MonoTime vmc_time(double ms) { return MonoTime::from_us(9'000'000) + Duration::seconds(ms * 1e-3); }
 
 // A performer of another make than ours: writes what a test wants, in the order that it wants.
 class Performer : public OscPacketSink {
@@ -36,7 +36,7 @@ class Performer : public OscPacketSink {
   void send() { bundle.flush(); }
 
   OscBundleWriter bundle{*this};
-  MonoTime now = at_ms(0);
+  MonoTime now = vmc_time(0);
 
  private:
   VmcIntake& intake_;
@@ -45,7 +45,7 @@ class Performer : public OscPacketSink {
 class VmcIntakeTest : public testing::Test {
  protected:
   KeptCaptures kept;
-  VmcIntake intake{kAlice, kept};
+  VmcIntake intake{kVmcAlice, kept};
   Performer performer{intake};
 };
 
@@ -59,7 +59,7 @@ TEST_F(VmcIntakeTest, TakesWhatOurSenderSends) {
   Hands hands;
   for (auto& rotation : hands.R_PB) rotation = random_rotation(random, 1.0f);
   for (int i = 0; i < kFrames; ++i) {
-    performer.now = at_ms(20.0 * i);
+    performer.now = vmc_time(20.0 * i);
     sent.push_back(random_pose(random));
     writer.write_pose(sent.back(), &hands, 0.02f * static_cast<float>(i));
   }
@@ -84,11 +84,23 @@ TEST_F(VmcIntakeTest, TakesWhatOurSenderSends) {
   EXPECT_EQ(intake.malformed(), 0u);
 }
 
+TEST_F(VmcIntakeTest, UsesTimesOfArrivalOfAPerformerWhoseClockStandsStill) {
+  VmcWriter writer(performer, VmcDialect::kVrm0);
+  Random random(2);
+  for (int i = 0; i < 185; ++i) {
+    performer.now = vmc_time(16.7 * i);
+    writer.write_pose(random_pose(random), nullptr, 0.0f);
+  }
+  EXPECT_GE(kept.poses.size(), 184u);
+  EXPECT_EQ(kept.poses.back().capture_time, performer.now);
+  EXPECT_TRUE(intake.is_clock_unusable());
+}
+
 TEST_F(VmcIntakeTest, KeepsTheSendersRhythmWhateverTheNetworkDoes) {
   VmcWriter writer(performer, VmcDialect::kVrm0);
   Random random(1);
   for (int i = 0; i < 300; ++i) {
-    performer.now = at_ms(20.0 * i + random.uniform(0.0, 12.0));
+    performer.now = vmc_time(20.0 * i + random.uniform(0.0, 12.0));
     writer.write_pose(Pose(), nullptr, 0.02f * static_cast<float>(i));
   }
   ASSERT_GT(kept.poses.size(), 290u);
@@ -102,7 +114,7 @@ TEST_F(VmcIntakeTest, KeepsTheSendersRhythmWhateverTheNetworkDoes) {
 // marks at the end, as VirtualMotionCapture; no marks at all.
 TEST_F(VmcIntakeTest, CompletesFramesWithoutWaitingWhateverTheirOrder) {
   for (int i = 0; i < 4; ++i) {
-    performer.now = at_ms(20.0 * i);
+    performer.now = vmc_time(20.0 * i);
     performer.time(5.0f + 0.02f * static_cast<float>(i));
     performer.bone("Hips", 0, 1, 0);
     performer.bone("Head", 0, 0.2f, 0);
@@ -112,10 +124,10 @@ TEST_F(VmcIntakeTest, CompletesFramesWithoutWaitingWhateverTheirOrder) {
   }
   EXPECT_NEAR((kept.poses[3].capture_time - kept.poses[2].capture_time).as_ms(), 20.0, 0.1);
   KeptCaptures of_second;
-  VmcIntake second_intake(kAlice, of_second);
+  VmcIntake second_intake(kVmcAlice, of_second);
   Performer second(second_intake);
   for (int i = 0; i < 4; ++i) {
-    second.now = at_ms(20.0 * i);
+    second.now = vmc_time(20.0 * i);
     second.bone("Hips", 0, 1, 0);
     second.send();
     second.bone("Head", 0, 0.2f, 0);
@@ -129,10 +141,10 @@ TEST_F(VmcIntakeTest, CompletesFramesWithoutWaitingWhateverTheirOrder) {
               1u << index_of(Bone::kHips) | 1u << index_of(Bone::kHead));
   }
   KeptCaptures of_third;
-  VmcIntake third_intake(kAlice, of_third);
+  VmcIntake third_intake(kVmcAlice, of_third);
   Performer third(third_intake);
   for (int i = 0; i < 4; ++i) {
-    third.now = at_ms(20.0 * i);
+    third.now = vmc_time(20.0 * i);
     third.bone("Hips", 0, 1, 0);
     third.bone("Head", 0, 0.2f, 0);
     third.send();
@@ -142,7 +154,7 @@ TEST_F(VmcIntakeTest, CompletesFramesWithoutWaitingWhateverTheirOrder) {
 
 TEST_F(VmcIntakeTest, ShowsALostPacketAsMissingBonesAndGoesOn) {
   for (int i = 0; i < 10; ++i) {
-    performer.now = at_ms(20.0 * i);
+    performer.now = vmc_time(20.0 * i);
     performer.time(0.02f * static_cast<float>(i));
     performer.bone("Hips", 0, 1, 0);
     performer.bone("Spine", 0, 0.1f, 0);
@@ -183,7 +195,7 @@ TEST_F(VmcIntakeTest, StandsDancersOfSendersWithoutPositionsOnTheFloor) {
 
 TEST_F(VmcIntakeTest, ScalesAnAverageBodyToTheHipsWhereOnlyTheseHaveAPlace) {
   for (int i = 0; i < 20; ++i) {
-    performer.now = at_ms(100.0 * i);
+    performer.now = vmc_time(100.0 * i);
     performer.bone("Hips", 0, i < 5 ? 0.6f : 0.8f, 0);  // rises from a crouch
     performer.bone("Spine", 0, 0, 0);
     performer.apply();
@@ -202,7 +214,7 @@ TEST_F(VmcIntakeTest, KnowsTheFingersOfBothVrms) {
   performer.bone("leftThumbProximal", 0, 0, 0);
   performer.apply();
   performer.send();
-  performer.now = at_ms(20);
+  performer.now = vmc_time(20);
   performer.bone("Hips", 0, 1, 0);
   performer.bone("LeftThumbIntermediate", 0, 0, 0);
   performer.bone("LeftThumbProximal", 0, 0, 0, half, half);
@@ -223,7 +235,7 @@ TEST_F(VmcIntakeTest, CountsWhatItCannotUse) {
   performer.bundle.add("/VMC/Ext/Cam", {"Camera", 0.0f});
   performer.apply();
   performer.send();
-  intake.take({}, at_ms(1), at_ms(1));
+  intake.take({}, vmc_time(1), vmc_time(1));
   EXPECT_TRUE(kept.poses.empty());
   EXPECT_EQ(intake.malformed(), 1u);
   EXPECT_EQ(
@@ -238,7 +250,7 @@ TEST_F(VmcIntakeTest, SurvivesEveryPrefixAndEveryFlippedBit) {
   writer.write_pose(Pose(), nullptr, 1.0f);
   std::int64_t us = 0;
   const auto take = [&](const std::vector<std::uint8_t>& packet) {
-    const MonoTime now = at_ms(0) + Duration::us(++us * 100);
+    const MonoTime now = vmc_time(0) + Duration::us(++us * 100);
     intake.take(packet, now, now);
   };
   const std::vector<std::uint8_t>& whole = packets.packets[0];
@@ -256,12 +268,12 @@ TEST_F(VmcIntakeTest, SurvivesEveryPrefixAndEveryFlippedBit) {
 
 TEST(VmcIntakePath, AllocatesNothingPerPose) {
   LastCapture last;
-  VmcIntake intake(kAlice, last);
+  VmcIntake intake(kVmcAlice, last);
   Performer performer(intake);
   VmcWriter writer(performer, VmcDialect::kVrm0);
   const AllocationGuard guard;
   for (int i = 0; i < 100; ++i) {
-    performer.now = at_ms(20.0 * i);
+    performer.now = vmc_time(20.0 * i);
     writer.write_pose(Pose(), nullptr, 0.02f * static_cast<float>(i));
   }
   EXPECT_EQ(guard.allocations(), 0u);

@@ -43,6 +43,22 @@ TEST_F(XrLife, WithoutARuntimeOneLineNamesTheCure) {
   EXPECT_TRUE(says(line, {"no OpenXR runtime", "SteamVR", "XR_RUNTIME_JSON"})) << line;
 }
 
+TEST_F(XrLife, AManifestWhoseLibraryIsMissingIsNamedWithTheLibrary) {
+  const std::string manifest = folder_.path("gone.json");
+  std::ofstream(manifest) << R"({"file_format_version": "1.0.0", "runtime": {"library_path": )"
+                          << R"("/opt/gone/libruntime.so"}})";
+  setenv("XR_RUNTIME_JSON", manifest.c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
+  std::string line = why_not("", XrUse::kTracking);
+  EXPECT_TRUE(says(line, {manifest.c_str(), "is missing: /opt/gone/libruntime.so", "install"}))
+      << line;
+  // A library that is there, and none.
+  std::ofstream(folder_.path("libtext.so")) << "no library";
+  std::ofstream(manifest) << R"({"file_format_version": "1.0.0", "runtime": {"library_path": )"
+                          << R"("./libtext.so"}})";
+  line = why_not("", XrUse::kTracking);
+  EXPECT_TRUE(says(line, {manifest.c_str(), "cannot be loaded", "libtext.so", "install"})) << line;
+}
+
 TEST_F(XrLife, ARuntimeThatLacksSomethingIsOneLineThatNamesItAndTheCure) {
   std::string line = why_not("without XR_MND_headless\n", XrUse::kTracking);
   EXPECT_TRUE(says(line, {"XR_MND_headless", "leave --tracking-only out"})) << line;

@@ -15,7 +15,7 @@ constexpr std::size_t kCoupleFrames = 1000;
 const std::vector<std::string> kCouples{"cmu_60_05_salsa", "cmu_61_05_salsa", "cmu_60_12_salsa",
                                         "cmu_61_12_salsa"};
 
-TEST(CoupleTakes, ThePartnersHandsTellWhereHandsAre) {
+TEST(PredictCoupleTakes, ThePartnersHandsTellWhereHandsAre) {
   auto takes = real_takes(kCouples, kCoupleFrames);
   if (takes.empty()) GTEST_SKIP() << "no real takes beside this tree";
   const auto couples = couples_of(std::move(takes));
@@ -48,7 +48,7 @@ TEST(CoupleTakes, ThePartnersHandsTellWhereHandsAre) {
   }
 }
 
-TEST(CoupleTakes, PalmsNearEachOtherAreBroughtTogether) {
+TEST(PredictCoupleTakes, PalmsNearEachOtherAreBroughtTogether) {
   auto takes = real_takes({kCouples[0], kCouples[1]}, kCoupleFrames);
   if (takes.empty()) GTEST_SKIP() << "no real takes beside this tree";
   auto couples = couples_of(std::move(takes));
@@ -77,7 +77,7 @@ TEST(CoupleTakes, PalmsNearEachOtherAreBroughtTogether) {
   EXPECT_LT(after, 0.9 * before);
 }
 
-TEST(CoupleTakes, FilesThatAreNoCouplesAreNamed) {
+TEST(PredictCoupleTakes, FilesThatAreNoCouplesAreNamed) {
   PredictTake take;
   take.name = "one.bvh";
   take.poses.resize(100);

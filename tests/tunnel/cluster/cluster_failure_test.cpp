@@ -19,7 +19,7 @@ TEST(ClusterFailure, AGuestOfADeadServerComesBackThroughAnotherWithoutLeaving) {
   cluster.run(Duration::ms(300));
   a.link->send(guest("alice"), placed_at(2.0f), cluster[0].tunnel.time_in(a));
   cluster.dance(Duration::s(1), {{&a, "alice"}, {&b, "bob"}, {&c, "carla"}});
-  cluster[0].kill();
+  cluster[0].crash();
   cluster.dance(Duration::ms(600), {{&b, "bob"}, {&c, "carla"}});
   cluster[1].tunnel.adopt(cluster[0].tunnel, a);
   const std::size_t before_b = b.heard_of(guest("alice")), before_c = c.heard_of(guest("alice"));
@@ -43,7 +43,7 @@ TEST(ClusterFailure, WhoComesToAServerWithoutTheRoomSeesNobodyLeave) {
   House& b = cluster[1].add("bob");
   cluster.run(Duration::ms(300));
   ASSERT_TRUE(a.saw("+bob"));
-  cluster[0].kill();
+  cluster[0].crash();
   cluster.delay = Duration::ms(50);
   cluster[2].tunnel.adopt(cluster[0].tunnel, a);
   cluster.dance(Duration::s(1), {{&a, "alice"}, {&b, "bob"}});
@@ -116,7 +116,7 @@ TEST(ClusterFailure, WhoDoesNotComeBackLeavesAndLeavesNothing) {
   cluster[0].add("alice");
   House& b = cluster[1].add("bob");
   cluster.run(Duration::ms(300));
-  cluster[0].kill();
+  cluster[0].crash();
   cluster.run(Duration::s(3));
   EXPECT_FALSE(b.saw("-alice"));
   cluster.run(Duration::s(5));
@@ -131,7 +131,7 @@ TEST(ClusterFailure, TheNameOfADeadServersGuestIsFreeForAnotherLink) {
   House& b = cluster[1].add("bob");
   House& c = cluster[2].add("carla");
   cluster.run(Duration::ms(300));
-  cluster[0].kill();
+  cluster[0].crash();
   cluster.run(Duration::ms(1200));
   House& again = cluster[1].add("alice");
   cluster.run(Duration::ms(400));
@@ -149,7 +149,7 @@ TEST(ClusterFailure, ARoomsStateOutlivesItsServer) {
   cluster.run(Duration::ms(300));
   a.link->send(guest("alice"), scene_named("terrace"), cluster[0].tunnel.time_in(a));
   cluster.run(Duration::ms(300));
-  cluster[0].kill();
+  cluster[0].crash();
   cluster[1].tunnel.adopt(cluster[0].tunnel, a);
   cluster.run(Duration::ms(500));
   House& b = cluster[1].add("bob");
@@ -164,7 +164,7 @@ TEST(ClusterFailure, AServerThatEndsHandsItsGuestsOnAtOnce) {
   House& b = cluster[1].add("bob");
   cluster.run(Duration::ms(300));
   cluster[0].node->leave();
-  cluster[0].kill();
+  cluster[0].crash();
   cluster.run(Duration::ms(20));
   cluster[1].tunnel.adopt(cluster[0].tunnel, a);
   cluster.dance(Duration::s(1), {{&a, "alice"}, {&b, "bob"}});
@@ -271,7 +271,7 @@ TEST(ClusterFailure, ManyDeathsInARowLeaveOneRoom) {
   cluster.run(Duration::ms(300));
   for (int kill = 0; kill < 30; ++kill) {
     const std::size_t dead = random.next_u64() % 3;
-    cluster[dead].kill();
+    cluster[dead].crash();
     cluster.dance(Duration::ms(static_cast<std::int64_t>(random.next_u64() % 1500)), all);
     for (const auto& [house, name] : all)
       if (cluster[dead].tunnel.has(*house))

@@ -65,6 +65,17 @@ TEST(ClusterFormat, KeepsEveryFieldOfAVoice) {
   EXPECT_TRUE(std::ranges::equal(voice.record.packet, message.record.packet));
 }
 
+TEST(ClusterFormat, KeepsTheKeyOfAGuest) {
+  for (const OwnerKey& key : {OwnerKey{guest("alice"), false}, OwnerKey{guest("party"), true}}) {
+    cluster::GuestValue value;
+    value.server = 3;
+    value.key = key;
+    const auto read = cluster::parse_value(bytes_of(cluster::Value(value)));
+    ASSERT_TRUE(read);
+    EXPECT_EQ(std::get<cluster::GuestValue>(*read).key, key);
+  }
+}
+
 // Version 1, written down: what a server of then says is understood for good.
 TEST(ClusterFormat, GoldenBytes) {
   cluster::ClockQuestion question;
@@ -129,7 +140,7 @@ TEST(ClusterFormat, SubjectsAndKeysReadBack) {
   for (const cluster::Key& key :
        {cluster::Key{cluster::KeyKind::kPresence, guest("salsa"), 0xabc, {}, 0},
         cluster::Key{cluster::KeyKind::kGuest, guest(longest), 0, guest(longest), 0},
-        cluster::Key{cluster::KeyKind::kGuestState, guest(longest), 0, guest(longest), 12},
+        cluster::Key{cluster::KeyKind::kGuestState, guest(longest), 0, guest(longest), 13},
         cluster::Key{cluster::KeyKind::kRoomState, guest("salsa"), 0, {}, 1}}) {
     const auto text = cluster::text_of(key);
     const auto again = cluster::parse_key(text.view());
@@ -138,8 +149,8 @@ TEST(ClusterFormat, SubjectsAndKeysReadBack) {
     EXPECT_EQ(again->kind, key.kind);
   }
   for (const char* wrong :
-       {"", "salsa", "salsa.at.12", "salsa.at.0000000000000000", "salsa.room.2", "salsa.room.1.x",
-        "salsa.guest.A", "salsa.guest.a.b", "salsa.state.a", "salsa.state.a.13", "salsa.what.a"})
+       {"", "salsa", "salsa.at.12", "salsa.at.0000000000000000", "salsa.room.3", "salsa.room.1.x",
+        "salsa.guest.A", "salsa.guest.a.b", "salsa.state.a", "salsa.state.a.14", "salsa.what.a"})
     EXPECT_FALSE(cluster::parse_key(wrong)) << wrong;
 }
 

@@ -5,11 +5,12 @@
 #include <array>
 #include <cstdlib>
 
+#include "tests/fuzz_target.h"
 #include "tests/tunnel/cluster/simulated_cluster.h"
 #include "tunnel/cluster/cluster_bundle.h"
 #include "tunnel/cluster/cluster_format.h"
 #include "tunnel/cluster/cluster_names.h"
-#include "tunnel/seal/key_files.h"
+#include "tunnel/seal/keys/key_files.h"
 #include "tunnel/server/program/cluster/cluster_keys.h"
 
 namespace dance {
@@ -69,7 +70,7 @@ void play_key(std::string_view name, std::string_view line) {
   keys.take(name, line);
   must(keys.entries().size() <= 1);
   for (const auto& [id, entry] : keys.entries())
-    must(id.view() == name && entry.name == id && !entry.is_local && name != kLocalKeyName);
+    must(id.view() == name && entry.name == id && !entry.is_local() && name != kLocalKeyName);
   if (const auto wrong = keys.take_wrong())
     for (const char c : *wrong) must(c >= ' ' && c <= '~');
   keys.take(name, std::nullopt);
@@ -79,7 +80,7 @@ void play_key(std::string_view name, std::string_view line) {
 }  // namespace
 }  // namespace dance
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(cluster) {
   if (size < 2) return 0;
   const std::size_t subject_size = std::min<std::size_t>(data[1], size - 2);
   const std::string_view subject(reinterpret_cast<const char*>(data) + 2, subject_size);

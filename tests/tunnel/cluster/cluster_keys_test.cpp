@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "tests/test_folder.h"
-#include "tunnel/seal/key_files.h"
+#include "tunnel/seal/keys/key_files.h"
 #include "tunnel/server/program/key_command.h"
 #include "tunnel/server/program/server_keys.h"
 
@@ -18,7 +18,7 @@ KeyEntry key_entry(const std::string& name, KeyKind kind = KeyKind::kGuest) {
   KeyEntry entry;
   entry.name = *GuestId::parse(name);
   entry.kind = kind;
-  entry.key = PresharedKey::make();
+  entry.key = PrivateKey::make().public_key();
   return entry;
 }
 
@@ -67,6 +67,25 @@ TEST(ClusterKeys, AWrongEntryOpensNothingAndIsOneWarning) {
   }
 }
 
+TEST(ClusterKeys, TellWhetherAServerHasAnotherIdentityThanTheCluster) {
+  const PublicKey own = PrivateKey::make().public_key();
+  ClusterKeys keys;
+  EXPECT_FALSE(keys.other_identity(own)) << "no guest has a key yet";
+  keys.take(kClusterIdentity, own.text());
+  EXPECT_TRUE(keys.take_changed());
+  EXPECT_FALSE(keys.other_identity(own));
+  EXPECT_TRUE(keys.entries().empty());
+  const auto other = keys.other_identity(PrivateKey::make().public_key());
+  ASSERT_TRUE(other);
+  EXPECT_NE(other->find("copy server-identity.key"), std::string::npos) << *other;
+  keys.take(kClusterIdentity, "no key");
+  EXPECT_TRUE(keys.take_wrong());
+  EXPECT_TRUE(keys.take_changed());
+  EXPECT_FALSE(keys.other_identity(own));
+  keys.take(kClusterIdentity, std::nullopt);
+  EXPECT_FALSE(keys.take_changed());
+}
+
 TEST(ClusterKeys, NamesThatNoneCanHaveOpenNothing) {
   ClusterKeys keys;
   const std::string line = line_of(key_entry("alice"));
@@ -76,6 +95,28 @@ TEST(ClusterKeys, NamesThatNoneCanHaveOpenNothing) {
   const auto said = keys.take_wrong();
   ASSERT_TRUE(said);
   EXPECT_NE(said->find("and 4 more"), std::string::npos) << *said;
+}
+
+TEST(ClusterKeys, OfABucketThatWasLostStayAndAreNamed) {
+  ClusterKeys keys;
+  for (const char* name : {"alice", "bob", "carol"}) keys.take(name, line_of(key_entry(name)));
+  EXPECT_TRUE(keys.take_changed());
+  EXPECT_FALSE(keys.take_lost()) << "nothing was lost";
+  keys.expect_again();
+  keys.take("bob", line_of(key_entry("bob")));
+  keys.take("carol", std::nullopt);  // revoked meanwhile
+  const auto lost = keys.take_lost();
+  ASSERT_TRUE(lost);
+  EXPECT_NE(lost->find("has lost the keys of alice: "), std::string::npos) << *lost;
+  EXPECT_NE(lost->find("--new-guest"), std::string::npos) << *lost;
+  EXPECT_EQ(keys.entries().size(), 2u) << "alice dances on";
+  EXPECT_FALSE(keys.take_lost()) << "once";
+  for (int i = 0; i < 40; ++i) {
+    const std::string name = "guest-" + std::to_string(i);
+    keys.take(name, line_of(key_entry(name)));
+  }
+  keys.expect_again();
+  EXPECT_NE(keys.take_lost()->find(" and 22 more: "), std::string::npos);
 }
 
 TEST(ClusterKeys, AreNotMoreThanAServerTakes) {
@@ -111,7 +152,7 @@ TEST_F(UnitedKeys, AreThoseOfTheFileAndOfTheClusterWhoseCountsWhereANameIsInBoth
   EXPECT_EQ(*keys->ring()->find("alice"), alice);
   EXPECT_EQ(*keys->ring()->find("bob"), others_bob);
   EXPECT_EQ(*keys->ring()->find("carol"), carol);
-  EXPECT_TRUE(keys->ring()->find(kLocalKeyName)->is_local);
+  EXPECT_TRUE(keys->ring()->find(kLocalKeyName)->is_local());
   EXPECT_EQ(keys->in_both(), 1u);
   // The file changes, and the cluster's stay.
   ring.remove("alice");

@@ -188,7 +188,7 @@ TEST(ClusterRooms, AGuestOfTheSecondPageGoesOnThroughAnotherServer) {
   cluster.run(Duration::ms(500));
   House& last = *all[44].first;  // the 45th of the first server: at the second in the second page
   cluster.dance(Duration::ms(300), all);
-  cluster[0].kill();
+  cluster[0].crash();
   cluster[1].tunnel.adopt(cluster[0].tunnel, last);
   cluster.run(Duration::ms(300));
   House& other = *all[49].first;
@@ -358,6 +358,40 @@ TEST(ClusterRooms, WhoIsThereIsNotToldUntilTheOtherServersHaveBeenHeard) {
   EXPECT_EQ(answers[0].result, wire::RoomResult::kNotHere) << "alice alone would be wrong";
   EXPECT_EQ(answers[1].result, wire::RoomResult::kKnown);
   EXPECT_EQ(answers[1].count, 2);
+}
+
+TEST(ClusterRooms, GuestsOfOneKeyAreCountedAtAllServers) {
+  SimulatedCluster cluster(2);
+  const Access key{.name = guest("mallory")};
+  std::vector<std::string> names;
+  for (int i = 0; i < 16; ++i) names.push_back("mallory-" + std::to_string(i));
+  House& first = cluster[0].tunnel.add_house("salsa", names, {}, key);
+  cluster[1].add("bob");
+  cluster.run(Duration::ms(300));
+  EXPECT_TRUE(first.link->is_connected());
+  House& second = cluster[1].tunnel.add_house("salsa", {"mallory-16"}, {}, key);
+  House& alice = cluster[1].tunnel.add_house("salsa", {"alice"}, {}, {.name = guest("alice")});
+  cluster.run(Duration::ms(300));
+  EXPECT_FALSE(second.link->is_connected());
+  EXPECT_TRUE(second.saw("refused 15 "));
+  EXPECT_TRUE(alice.link->is_connected());
+}
+
+TEST(ClusterRooms, SimultaneousJoinsWithOneKeyTakeNoMoreThanItsPlaces) {
+  SimulatedCluster cluster(4);
+  for (std::size_t i = 0; i < 4; ++i) cluster[i].add("bob-" + std::to_string(i));
+  cluster.run(Duration::ms(300));
+  for (std::size_t i = 0; i < 4; ++i) {
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < 16; ++k) names.push_back("mallory-" + std::to_string(16 * i + k));
+    cluster[i].tunnel.add_house("salsa", names, {}, {.name = guest("mallory")});
+  }
+  cluster.run(Duration::s(1));
+  for (std::size_t i = 0; i < 4; ++i) {
+    const ServerRoom& room = cluster[i].tunnel.server().rooms()[0];
+    ASSERT_TRUE(room.in_use);
+    EXPECT_EQ(room.guest_count, 4u + 16u) << i;
+  }
 }
 
 }  // namespace

@@ -105,6 +105,7 @@ inline std::vector<cluster::Value> values() {
   guest_value.server = 3;
   guest_value.link_token = 4;
   guest_value.since_us = 5;
+  guest_value.key = {guest("alice"), true};
   return {cluster::PresenceValue{2}, guest_value,
           cluster::StateValue{6, guest("alice"), 7, payload}};
 }

@@ -67,7 +67,7 @@ TEST(ClusterStatus, TellsTheOtherServersAndWhatPassesInEachRoom) {
 
 TEST(ClusterStatus, ASilentServerIsGone) {
   SimulatedCluster cluster(2);
-  cluster[1].kill();
+  cluster[1].crash();
   cluster.run(Duration::s(2));
   const ClusterStatus status =
       cluster_status_of(*cluster[0].node, cluster[0].tunnel.server(), cluster.now());

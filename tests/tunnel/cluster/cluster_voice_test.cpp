@@ -37,6 +37,25 @@ TEST(ClusterVoice, GuestsOfAllServersHearEachOther) {
   EXPECT_EQ(cluster[0].published["dance.1.voice"], 100) << "once each, for both servers";
 }
 
+TEST(ClusterVoice, LinksOfOneKeyAtSeveralServersHaveOnePlace) {
+  SimulatedCluster cluster(3);
+  House& listener = cluster[0].add("bob");
+  const Access key{.name = guest("mallory")};
+  std::vector<Talk> talks;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string name = "mallory-" + std::to_string(i);
+    House& house = cluster[i].tunnel.add_house("salsa", {name}, {}, key);
+    talks.push_back(Talk{cluster[i].tunnel, {{&house, guest(name)}}});
+  }
+  cluster.run(Duration::ms(300));
+  cluster.run(Duration::s(1), [&] {
+    if (cluster.now().since_zero_us() / 1000 % 10 != 0) return;
+    for (Talk& talk : talks) talk.say(talk.talkers[0]);
+  });
+  cluster.run(Duration::ms(50));
+  EXPECT_EQ(listener.voices.size(), 100u);
+}
+
 TEST(ClusterVoice, GoesOnlyToServersThatWantTheGuest) {
   SimulatedCluster cluster(2);
   House& a = cluster[0].add("alice");

@@ -116,8 +116,7 @@ class NatsCluster : public ::testing::Test {
   }
   // Straight away, as by the kernel.
   static void kill_now(std::unique_ptr<ChildProcess>& program) {
-    ::kill(program->pid(), SIGKILL);
-    program->wait(Duration::s(10));
+    program->kill_now();
     program.reset();
   }
 

@@ -78,18 +78,52 @@ TEST_F(NatsCluster, APartitionHealsAndNoRoomIsStuck) {
   ASSERT_TRUE(all_hear_all(15, Duration::s(60))) << talk();
   ASSERT_EQ(run(drop).exit_code, 0);
   // Those at one server see each other, and the others leave.
+  const auto at_its_server = [&](const auto& guest) {
+    return static_cast<std::size_t>(std::ranges::count_if(guests, [&](const auto& other) {
+      return other != guest && other->link->server() == guest->link->server();
+    }));
+  };
   const auto all_alone = [&] {
-    return std::ranges::all_of(guests, [](const auto& one) { return one->left >= 4; });
+    return std::ranges::all_of(guests, [&](const auto& one) {
+      return one->left + at_its_server(one) >= guests.size() - 1;
+    });
   };
   EXPECT_TRUE(dance_until(all_alone)) << all_talk();
   for (auto& one : guests) one->heard.clear();
   dance(Duration::ms(500));
   for (std::size_t i = 0; i < guests.size(); ++i) {
-    EXPECT_EQ(guests[i]->heard.size(), 1u) << guests[i]->id.view();
+    EXPECT_EQ(guests[i]->heard.size(), at_its_server(guests[i])) << guests[i]->id.view();
+#ifndef DANCE_SANITIZED  // with sanitizers a busy server answers late, and its guests may leave it
     EXPECT_EQ(guests[i]->link->server(), address_of(i % 3)) << "its server lives";
+#endif
   }
   ASSERT_EQ(run(pass).exit_code, 0);
   ASSERT_TRUE(all_hear_all(15, Duration::s(90))) << all_talk();
+}
+
+// A container without a volume starts so, and a machine whose disk was replaced.
+TEST_F(NatsCluster, ANatsThatComesBackEmptyIsFilledAgain) {
+  start_nats(0, 1);
+  const Finished made = run(bin("dance-server") + " --cluster " + url_of(0) + " --new-guest carol");
+  ASSERT_EQ(made.exit_code, 0) << made.talk;
+  for (const std::size_t server : {0u, 1u}) start_server(server);
+  add_guest("alice", 0);
+  add_guest("bob", 1);
+  ASSERT_TRUE(all_hear_all(15)) << all_talk();
+  kill_now(nats_[0]);
+  dance(Duration::ms(500));
+  ASSERT_GT(std::filesystem::remove_all(folder_.path("nats-0")), 0u);
+  start_nats(0, 1);
+  ASSERT_TRUE(all_hear_all(15)) << all_talk();
+  // A guest who joins now finds the others by the new bucket alone, at either server.
+  const auto is_told = [&](const char* line) {
+    return dance_until([&] { return talk().find(line) != std::string::npos; });
+  };
+  EXPECT_TRUE(is_told("NATS has lost its values")) << all_talk();
+  EXPECT_TRUE(is_told("has lost the keys of carol: ")) << all_talk();
+  start_server(2);
+  add_guest("dora", 2);
+  EXPECT_TRUE(all_hear_all(15)) << all_talk();
 }
 
 // SIGKILL of servers and of NATS nodes in turn, at random. DANCE_CLUSTER_KILLS says how often; it
@@ -149,10 +183,17 @@ TEST_F(NatsCluster, WhatIsMissingIsOneLineThatNamesIt) {
     EXPECT_EQ(std::count(server.talk.begin(), server.talk.end(), '\n'), 1) << server.talk;
     return server.talk;
   };
-  EXPECT_NE(refused("--cluster nats://me:secret@127.0.0.1:24999")
-                .find("no NATS server answers at nats://127.0.0.1:24999"),
-            std::string::npos)
-      << "without the password";
+  const std::string login = folder_.path("login");
+  std::ofstream(login) << "me:secret\n";
+  std::filesystem::permissions(login, std::filesystem::perms::owner_read);
+  const std::string unanswered =
+      refused("--cluster nats://127.0.0.1:24999 --cluster-login " + login);
+  EXPECT_NE(unanswered.find("no NATS server answers at nats://127.0.0.1:24999"), std::string::npos)
+      << unanswered;
+  EXPECT_EQ(unanswered.find("secret"), std::string::npos) << unanswered;
+  const std::string listed = refused("--cluster nats://me:secret@127.0.0.1:24999");
+  EXPECT_NE(listed.find("--cluster-login FILE"), std::string::npos) << listed;
+  EXPECT_EQ(listed.find("secret"), std::string::npos) << listed;
   EXPECT_NE(refused("--cluster ,").find("--cluster names no NATS server"), std::string::npos);
 }
 

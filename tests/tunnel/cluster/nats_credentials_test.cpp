@@ -37,6 +37,8 @@ class NatsCredentialsTest : public NatsCluster {
   // As `nsc generate creds` writes it.
   std::string file_of(const std::string& name, const std::string& jwt, const std::string& seed) {
     std::ofstream out(folder_.path(name));
+    std::filesystem::permissions(folder_.path(name), std::filesystem::perms::owner_read |
+                                                         std::filesystem::perms::owner_write);
     out << "-----BEGIN NATS USER JWT-----\n"
         << jwt << "\n------END NATS USER JWT------\n\n"
         << "************************* IMPORTANT *************************\n"

@@ -74,7 +74,7 @@ TEST_F(NatsHandshakeTest, WhatIsBeingTriedEndsWithWhoAskedForIt) {
   NatsOptions of;
   of.urls = {peer.url};
   {
-    NatsConnector connector(of);
+    NatsConnector connector(of, *WakeEvent::create());
     connector.ask();
     ASSERT_TRUE(wait_for([&] { return peer.lines > 3; }));
   }

@@ -2,6 +2,7 @@
 // that does not read holds up nobody, and another takes its place.
 #include "tunnel/nats/messages/nats_messages.h"
 
+#include "core/program/child_process.h"
 #include "tests/tunnel/cluster/nats_cluster.h"
 #include "tests/tunnel/cluster/nats_peer.h"
 #include "tests/tunnel/seal/paper.h"
@@ -250,7 +251,7 @@ TEST_F(NatsMessagesTest, AServerThatDoesNotReadHoldsUpNothingAndIsLeft) {
     return alice.heard.contains("dance.1.test") && bob.heard.contains("dance.1.test");
   };
   ASSERT_TRUE(turn_until(passes));
-  ::kill(nats_[0]->pid(), SIGSTOP);
+  ASSERT_TRUE(nats_[0]->send_signal(SIGSTOP));
   // Far more than any buffer takes; every call returns at once, or this never ends.
   const std::string much(8000, 'x');
   for (int i = 0; i < 4000; ++i) {
@@ -263,7 +264,7 @@ TEST_F(NatsMessagesTest, AServerThatDoesNotReadHoldsUpNothingAndIsLeft) {
   alice.heard.clear();
   bob.heard.clear();
   EXPECT_TRUE(turn_until(passes)) << "through the other";
-  ::kill(nats_[0]->pid(), SIGCONT);
+  ASSERT_TRUE(nats_[0]->send_signal(SIGCONT));
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace dance {
 
 inline std::string messages_say(const NatsOptions& of) {
-  const auto made = NatsConnector(of).connect_now();
+  const auto made = NatsConnector(of, *WakeEvent::create()).connect_now();
   return made ? "connected" : made.error().what;
 }
 inline std::string values_say(NatsOptions of, Poller& poller) {

@@ -66,7 +66,7 @@ class NatsValuesTest : public NatsCluster {
   }
   // As a bus's: the library's threads may be in a callback when a test ends.
   static NatsInbox& inbox() {
-    static auto& of_all = *new NatsInbox;
+    static auto& of_all = *new NatsInbox(*WakeEvent::create());
     return of_all;
   }
   static std::size_t wait_for_values(std::chrono::milliseconds longest) {

@@ -18,16 +18,30 @@ wire::ServerList list(std::initializer_list<std::uint16_t> numbers) {
   return servers;
 }
 
-ServerChoice choice_of(std::initializer_list<std::uint16_t> others) {
+const MonoTime kListedAt = MonoTime::from_us(1'000'000);
+
+// A link that is connected to server 0, which lists the others. All have answered a probe.
+struct ListedServers {
+  explicit ListedServers(std::initializer_list<std::uint16_t> others) {
+    choice.set_current(server(0));
+    EXPECT_TRUE(choice.set_others(candidates.accept(server(0), list(others), kListedAt)));
+    for (const std::uint16_t number : others) candidates.note_answer(server(number));
+  }
+  std::optional<Address> choose(const std::vector<ServerChoice::Distance>& distances) {
+    choice.set_distances(distances);
+    return choice.choose();
+  }
+  std::optional<Address> next(bool has_goodbye, MonoTime now) {
+    return choice.next(has_goodbye, candidates, now);
+  }
+
+  ServerCandidates candidates;
   ServerChoice choice;
-  choice.set_current(server(0));
-  EXPECT_TRUE(choice.set_others(list(others)));
-  return choice;
-}
+};
 
 TEST(ServerChoice, TakesAServerThatIsNearerByMuchAndNoOther) {
   const auto chosen = [](double here_ms, std::optional<double> there_ms) {
-    ServerChoice choice = choice_of({1});
+    ListedServers choice({1});
     std::optional<Duration> there;
     if (there_ms) there = Duration::seconds(*there_ms * 1e-3);
     return choice.choose({{server(0), Duration::seconds(here_ms * 1e-3)}, {server(1), there}})
@@ -41,7 +55,7 @@ TEST(ServerChoice, TakesAServerThatIsNearerByMuchAndNoOther) {
 }
 
 TEST(ServerChoice, DoesNotWanderLater) {
-  ServerChoice choice = choice_of({1});
+  ListedServers choice({1});
   const auto distances = [](int here_ms, int there_ms) {
     return std::vector<ServerChoice::Distance>{{server(0), Duration::ms(here_ms)},
                                                {server(1), Duration::ms(there_ms)}};
@@ -50,34 +64,72 @@ TEST(ServerChoice, DoesNotWanderLater) {
   EXPECT_FALSE(choice.choose(distances(200, 20)));
 }
 
+TEST(ServerChoice, KeepsADistanceWhenALaterProbeIsLost) {
+  ListedServers choice({1, 2});
+  EXPECT_FALSE(choice.choose({{server(0), Duration::ms(1)},
+                              {server(1), Duration::ms(90)},
+                              {server(2), Duration::ms(20)}}));
+  choice.choice.set_distances({{server(0), {}}, {server(1), Duration::ms(90)}, {server(2), {}}});
+  EXPECT_EQ(choice.next(true, kListedAt), server(2));
+}
+
 TEST(ServerChoice, AfterAGoodbyeGoesAtOnceAndInALapseSoon) {
-  const MonoTime now = MonoTime::from_us(1'000'000);
-  ServerChoice left = choice_of({1});
-  EXPECT_EQ(left.next(true, now), server(1));
-  ServerChoice silent = choice_of({1});
-  EXPECT_FALSE(silent.next(false, now)) << "a short cut is over soon";
-  EXPECT_FALSE(silent.next(false, now + Duration::ms(150)));
-  EXPECT_EQ(silent.next(false, now + Duration::ms(200)), server(1));
+  ListedServers left({1});
+  EXPECT_EQ(left.next(true, kListedAt), server(1));
+  ListedServers silent({1});
+  EXPECT_FALSE(silent.next(false, kListedAt)) << "a short cut is over soon";
+  EXPECT_FALSE(silent.next(false, kListedAt + Duration::ms(150)));
+  EXPECT_EQ(silent.next(false, kListedAt + Duration::ms(200)), server(1));
 }
 
 TEST(ServerChoice, TriesTheNearestFirstAndAllInTurn) {
-  ServerChoice choice = choice_of({1, 2, 3});
+  ListedServers choice({1, 2, 3});
   EXPECT_FALSE(choice.choose({{server(0), Duration::ms(1)},
                               {server(1), Duration::ms(90)},
-                              {server(2), Duration::ms(20)}}));  // 3 does not answer
-  MonoTime now = MonoTime::from_us(1'000'000);
+                              {server(2), Duration::ms(20)}}));  // 3 was not measured
   std::vector<Address> tried;
-  for (int i = 0; i < 5000; ++i, now += Duration::ms(1))
+  for (MonoTime now = kListedAt; now - kListedAt < Duration::s(5); now += Duration::ms(1))
     if (const auto next = choice.next(true, now)) tried.push_back(*next);
   ASSERT_GE(tried.size(), 5u);
   EXPECT_EQ(std::vector(tried.begin(), tried.begin() + 5),
             (std::vector{server(2), server(1), server(3), server(0), server(2)}));
 }
 
+// A server that lists a victim and says goodbye.
+TEST(ServerChoice, NeverGoesToACandidateThatHasNotAnsweredAProbe) {
+  ServerChoice choice;
+  ServerCandidates candidates;
+  choice.set_current(server(0));
+  ASSERT_TRUE(choice.set_others(candidates.accept(server(0), list({1, 2}), kListedAt)));
+  int turns = 0;
+  for (MonoTime now = kListedAt; now - kListedAt < Duration::s(60); now += Duration::ms(1)) {
+    ASSERT_FALSE(choice.next(true, candidates, now));
+    EXPECT_GT(choice.next_deadline(), now) << "it waits, and does not spin";
+    ++turns;
+  }
+  EXPECT_EQ(turns, 60'000);
+  candidates.note_answer(server(2));
+  EXPECT_EQ(choice.next(true, candidates, kListedAt + Duration::s(61)), server(2));
+}
+
+// A goodbye in each welcome: the link goes to and fro between the liar and a server that answers
+// probes but does not welcome the link.
+TEST(ServerChoice, AServerThatSaysGoodbyeAgainAndAgainSendsALinkElsewhereSeldom) {
+  ListedServers choice({1});
+  int away = 0;
+  for (MonoTime now = kListedAt; now - kListedAt < Duration::s(100); now += Duration::ms(10)) {
+    const auto to = choice.next(true, now);
+    if (to == server(1)) ++away;
+    if (to == server(0)) choice.choice.end_lapse();
+  }
+  EXPECT_GE(away, 3);
+  EXPECT_LE(away, 3 + 10);
+}
+
 TEST(ServerChoice, GivesASlowWayTheTimeItTakes) {
-  ServerChoice choice = choice_of({1});
+  ListedServers choice({1});
   EXPECT_FALSE(choice.choose({{server(0), Duration::ms(600)}, {server(1), Duration::ms(620)}}));
-  MonoTime now = MonoTime::from_us(1'000'000);
+  MonoTime now = kListedAt;
   EXPECT_EQ(choice.next(true, now), server(1));
   // Eight round trips, and after each round of all servers twice as long.
   EXPECT_FALSE(choice.next(true, now + Duration::ms(4900)));
@@ -89,31 +141,30 @@ TEST(ServerChoice, GivesASlowWayTheTimeItTakes) {
 }
 
 TEST(ServerChoice, AServerGoneToByChoiceHasItsTimeToo) {
-  ServerChoice choice = choice_of({1});
-  MonoTime now = MonoTime::from_us(1'000'000);
-  choice.set_current(server(1));
-  choice.begin_try(now);
-  EXPECT_FALSE(choice.next(false, now + Duration::ms(300)));
-  EXPECT_FALSE(choice.next(false, now + Duration::ms(700)));
+  ListedServers choice({1});
+  choice.choice.begin_try(server(1), kListedAt);
+  EXPECT_FALSE(choice.next(false, kListedAt + Duration::ms(300)));
+  EXPECT_FALSE(choice.next(false, kListedAt + Duration::ms(700)));
+  EXPECT_EQ(choice.next(false, kListedAt + Duration::ms(900)), server(0)) << "back where it was";
 }
 
 TEST(ServerChoice, LooksForANearerOneAgainAfterItHadToMove) {
-  ServerChoice choice = choice_of({1});
+  ListedServers choice({1});
   EXPECT_FALSE(choice.choose({{server(0), Duration::ms(10)}, {server(1), Duration::ms(90)}}));
-  const MonoTime now = MonoTime::from_us(1'000'000);
-  EXPECT_FALSE(choice.end_lapse()) << "there was none";
-  EXPECT_EQ(choice.next(true, now), server(1));
-  EXPECT_TRUE(choice.end_lapse());
-  EXPECT_FALSE(choice.end_lapse());
+  EXPECT_FALSE(choice.choice.end_lapse()) << "there was none";
+  EXPECT_EQ(choice.next(true, kListedAt), server(1));
+  EXPECT_TRUE(choice.choice.end_lapse());
+  EXPECT_FALSE(choice.choice.end_lapse());
   EXPECT_EQ(choice.choose({{server(1), Duration::ms(90)}, {server(0), Duration::ms(10)}}),
             server(0));
 }
 
 TEST(ServerChoice, AServerThatStandsAloneIsWaitedFor) {
   ServerChoice choice;
+  ServerCandidates candidates;
   choice.set_current(server(0));
   EXPECT_FALSE(choice.set_others({}));
-  EXPECT_FALSE(choice.next(true, MonoTime::from_us(1'000'000)));
+  EXPECT_FALSE(choice.next(true, candidates, kListedAt));
   EXPECT_FALSE(choice.next_deadline().is_set());
 }
 

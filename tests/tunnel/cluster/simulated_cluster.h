@@ -43,7 +43,7 @@ class SimulatedCluster {
       node->attach(tunnel.server());
     }
     // As by SIGKILL: what it has said so far is said.
-    void kill() {
+    void crash() {
       node.reset();
       tunnel.stop_server();
       subjects.clear();
@@ -54,8 +54,10 @@ class SimulatedCluster {
       start();
     }
     SimulatedTunnel::House& add(const std::string& name, const std::string& room = "salsa") {
+      // Full rooms need a key without a limit of its own.
       return tunnel.add_house(
-          room, name.empty() ? std::vector<std::string>{} : std::vector<std::string>{name});
+          room, name.empty() ? std::vector<std::string>{} : std::vector<std::string>{name}, {},
+          {.any_name = true, .is_local = true});
     }
 
     void set_handlers(Handlers handlers) override { handlers_ = std::move(handlers); }

@@ -1,7 +1,10 @@
-// Wire format 5 has twice the slots of 4: who speaks 4 goes on, with the lower half.
+// A server answers one version of the wire format, and refuses others with the number of its own.
 #include <gtest/gtest.h>
 
-#include "tests/tunnel/simulated_tunnel.h"
+#include <memory>
+#include <vector>
+
+#include "tests/tunnel/voice/voices.h"
 
 namespace dance {
 namespace {
@@ -39,19 +42,16 @@ Heard hello_of(std::uint8_t version) {
   return heard;
 }
 
-TEST(WireVersion, EachIsAnsweredInItsOwn) {
-  const Heard five = hello_of(5), four = hello_of(4);
-  ASSERT_TRUE(five.welcome);
-  ASSERT_TRUE(four.welcome);
-  EXPECT_EQ(five.welcome->version, 5);
-  EXPECT_EQ(four.welcome->version, 4);
-  ASSERT_EQ(five.roster.size(), 4u);
-  ASSERT_EQ(four.roster.size(), 2u) << "as many slots as it knows";
-  EXPECT_EQ(four.roster[0].parts, 2);
+TEST(WireVersion, AHelloOfThisVersionIsWelcomeAndGetsTheWholeRoster) {
+  const Heard heard = hello_of(wire::kWireVersion);
+  ASSERT_TRUE(heard.welcome);
+  EXPECT_EQ(heard.welcome->version, wire::kWireVersion);
+  ASSERT_EQ(heard.roster.size(), 4u);
+  EXPECT_EQ(heard.roster[0].parts, 4);
 }
 
-TEST(WireVersion, OthersAreRefusedWithWhatIsSpoken) {
-  for (const std::uint8_t version : {std::uint8_t{3}, std::uint8_t{6}}) {
+TEST(WireVersion, OtherVersionsAreRefusedWithTheNumberOfThisOne) {
+  for (const std::uint8_t version : {std::uint8_t{5}, std::uint8_t{7}}) {
     const Heard heard = hello_of(version);
     EXPECT_FALSE(heard.welcome);
     ASSERT_TRUE(heard.refusal);
@@ -60,49 +60,90 @@ TEST(WireVersion, OthersAreRefusedWithWhatIsSpoken) {
   }
 }
 
-// An older link and an older server, of which the test plays the answer.
-TEST(WireVersion, ALinkSpeaksAsTheServerDoes) {
-  struct Sink final : DatagramSink {
-    void send(const Address&, std::span<const std::uint8_t> bytes) override {
-      wire::HelloProblem problem;
-      const auto opening = wire::parse_opening(bytes);
-      if (opening && opening->type == wire::Type::kHello)
-        hellos.push_back(*wire::parse_hello(opening->body, problem));
-    }
-    std::vector<wire::Hello> hellos;
-  } sink;
-  LinkOptions options;
-  options.room = guest("salsa");
-  options.token = 5;
-  ASSERT_TRUE(options.guests.try_push(guest("alice")));
-  int refusals_told = 0;
-  LinkHandlers handlers;
-  handlers.on_refused = [&](const wire::RefusalNotice&, MonoTime) { ++refusals_told; };
-  LinkCore link(options, handlers, sink);
-  MonoTime now = MonoTime::from_us(1'000'000);
-  link.on_sealed(now);
-  link.tick(now);
-  ASSERT_EQ(sink.hellos.size(), 1u);
-  EXPECT_EQ(sink.hellos[0].version, 5);
-  const auto refuse = [&](std::uint8_t server_version) {
-    wire::RefusalNotice notice;
-    notice.server_version = server_version;
-    notice.nonce = sink.hellos.back().nonce;
-    std::array<std::uint8_t, 64> out;
-    link.receive({out.data(), wire::build(notice, out)}, now, now);
-    link.tick(now);
-  };
-  refuse(4);
-  ASSERT_EQ(sink.hellos.size(), 2u) << "at once";
-  EXPECT_EQ(sink.hellos[1].version, 4);
-  EXPECT_EQ(refusals_told, 0);
-  // The next server may be a newer one again.
-  now += Duration::s(1);
-  link.on_sealed(now);
-  link.tick(now);
-  EXPECT_EQ(sink.hellos.back().version, 5);
-  refuse(3);
-  EXPECT_EQ(refusals_told, 1) << "that is too old";
+// A link, and the answers of a server, which the test makes.
+class LinkOfOneVersion : public testing::Test, public DatagramSink {
+ protected:
+  LinkOfOneVersion() {
+    LinkOptions options;
+    options.room = guest("salsa");
+    options.token = 5;
+    options.clock_id = 8;
+    options.hearing = hearing({"default=0"});
+    EXPECT_TRUE(options.guests.try_push(guest("alice")));
+    LinkHandlers handlers;
+    handlers.on_refused = [this](const wire::RefusalNotice& notice, MonoTime) {
+      refused_.push_back(notice.cause);
+    };
+    link_ = std::make_unique<LinkCore>(options, handlers, *this);
+    link_->on_sealed(now_);
+    link_->tick(now_);
+  }
+  void send(const Address&, std::span<const std::uint8_t> bytes) override {
+    wire::HelloProblem problem;
+    const auto opening = wire::parse_opening(bytes);
+    ASSERT_TRUE(opening);
+    if (opening->type == wire::Type::kHello)
+      hellos_.push_back(*wire::parse_hello(opening->body, problem));
+    voices_ += opening->type == wire::Type::kVoices ? 1 : 0;
+    has_interest_ |= opening->type == wire::Type::kInterest;
+  }
+  template <class Message>
+  void receive(const Message& message) {
+    std::array<std::uint8_t, wire::kMaxHello> out;
+    link_->receive({out.data(), wire::build(message, out)}, now_, now_);
+  }
+  wire::Welcome welcome() const {
+    wire::Welcome welcome;
+    welcome.nonce = hellos_.back().nonce;
+    welcome.epoch = 3;
+    welcome.link_time_us = hellos_.back().link_time_us;
+    welcome.codec = hellos_.back().codecs[0];
+    EXPECT_TRUE(welcome.slots.try_push({0, 1}));
+    return welcome;
+  }
+
+  MonoTime now_ = MonoTime::from_us(1'000'000'000);
+  std::unique_ptr<LinkCore> link_;
+  std::vector<wire::Hello> hellos_;
+  std::vector<wire::Refusal> refused_;
+  int voices_ = 0;
+  bool has_interest_ = false;
+};
+
+TEST_F(LinkOfOneVersion, ReportsAServerOfAnotherVersionAndKeepsItsOwn) {
+  ASSERT_EQ(hellos_.size(), 1u);
+  EXPECT_EQ(hellos_[0].version, wire::kWireVersion);
+  wire::RefusalNotice notice;
+  notice.server_version = wire::kWireVersion - 1;
+  notice.nonce = hellos_[0].nonce;
+  receive(notice);
+  link_->tick(now_);
+  EXPECT_EQ(refused_, std::vector{wire::Refusal::kVersion});
+  EXPECT_EQ(hellos_.size(), 1u) << "not at once";
+  now_ += Duration::s(30);
+  link_->tick(now_);
+  ASSERT_GT(hellos_.size(), 1u);
+  EXPECT_EQ(hellos_.back().version, wire::kWireVersion);
+}
+
+TEST_F(LinkOfOneVersion, IgnoresAWelcomeOfAnotherVersion) {
+  wire::Welcome other = welcome();
+  other.version = wire::kWireVersion - 1;
+  receive(other);
+  EXPECT_FALSE(link_->is_connected());
+}
+
+TEST_F(LinkOfOneVersion, SendsItsVoiceAndItsHearingOnceItIsWelcome) {
+  receive(welcome());
+  ASSERT_TRUE(link_->is_connected());
+  wire::RosterPart roster;
+  roster.version = 1;
+  receive(roster);
+  link_->send(guest("alice"), voice_number(1, now_, 8), now_);
+  link_->tick(now_);
+  EXPECT_EQ(voices_, 1);
+  EXPECT_EQ(link_->counters().voices_unrouted, 0u);
+  EXPECT_TRUE(has_interest_);
 }
 
 }  // namespace

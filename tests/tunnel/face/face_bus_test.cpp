@@ -5,10 +5,10 @@
 namespace dance {
 namespace {
 
-class FaceBus : public TwoHouses {
+class FaceBus : public RemovalHouses {
  protected:
   void SetUp() override {
-    TwoHouses::SetUp();
+    RemovalHouses::SetUp();
     if (HasFatalFailure()) return;
     host_->viewer->subscribe<Face>(Where::kGuest,
                                    [this](const Channel& channel, const Face& face, MonoTime) {
@@ -18,7 +18,7 @@ class FaceBus : public TwoHouses {
       if (is_sending_) {
         face_.sequence++;
         face_.capture_time = now;
-        bob_->viewer->publish(Channel::of(Signal::kFace, Where::kCapture, named("bob")), face_);
+        bob_->port->publish(Channel::of(Signal::kFace, Where::kCapture, named("bob")), face_);
       }
       return now + Duration::ms(30);
     });

@@ -9,6 +9,7 @@
 #include "core/store/sha256.h"
 #include "tests/test_folder.h"
 #include "tests/tunnel/files/test_file.h"
+#include "tests/tunnel/seal/guest_key.h"
 #include "tunnel/link/link_avatars.h"
 #include "tunnel/server/server.h"
 
@@ -34,9 +35,6 @@ class FileFlow : public ::testing::Test {
     auto made = Poller::create();
     ASSERT_TRUE(made);
     poller = std::move(*made);
-    key.name = guest("any");
-    key.kind = KeyKind::kRoom;
-    key.key = PresharedKey::make();
     KeyRing ring;
     ASSERT_TRUE(ring.add(key));
     options.keys = std::make_shared<const KeyRing>(std::move(ring));
@@ -49,8 +47,9 @@ class FileFlow : public ::testing::Test {
     server = std::move(*opened);
   }
   void open(House& house) {
-    house.avatars = std::make_unique<LinkAvatars>(
-        house.store, *poller, [&](const std::string& line) { house.told.push_back(line); });
+    house.avatars =
+        std::make_unique<LinkAvatars>(house.store, *WakeEvent::create(), *poller,
+                                      [&](const std::string& line) { house.told.push_back(line); });
     LinkHandlers handlers;
     handlers.on_pose = [&](const GuestId&, const Pose& pose, MonoTime) {
       house.heard.push_back(pose.sequence);
@@ -63,10 +62,8 @@ class FileFlow : public ::testing::Test {
     of.room = guest("salsa");
     of.file_bytes_per_second = rate;
     ASSERT_TRUE(of.guests.try_push(house.who));
-    LinkKey link_key;
-    link_key.name = "any";
-    link_key.key = key.key;
-    auto opened = Link::open({address}, link_key, of, std::move(handlers), *poller);
+    auto opened = Link::open({address}, link_key_of(key, options.identity.public_key()), of,
+                             std::move(handlers), *poller);
     ASSERT_TRUE(opened);
     house.link = std::move(*opened);
     house.avatars->attach(*house.link);
@@ -106,7 +103,7 @@ class FileFlow : public ::testing::Test {
   }
 
   double rate = 300'000.0;
-  KeyEntry key;
+  GuestKey key = key_of("any", KeyKind::kRoom);
   ServerOptions options;
   std::unique_ptr<Poller> poller;
   std::unique_ptr<Server> server;

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/base/assert.h"
+#include "tests/fuzz_target.h"
 #include "tunnel/invitation/invitation.h"
 #include "tunnel/invitation/opened_invitations.h"
 
@@ -23,12 +24,12 @@ void read(std::string_view text) {
   DANCE_ASSERT(back && *back == *parsed);
   DANCE_ASSERT(dance::text_of(*back) == canonical);
   // What a house keeps of it can be read too.
-  DANCE_ASSERT(dance::HouseKey::parse(parsed->house_key(parsed->key).line()));
+  DANCE_ASSERT(dance::HouseKey::parse(parsed->house_key().line()));
 }
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(invitation) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   read(text);
   const auto opened = dance::OpenedInvitations::parse(text, "file");

@@ -16,10 +16,12 @@ class SlowStore final : public KeyStore {
  public:
   std::string name() const override { return "slow"; }
   Result<KeyRing> read() override { return KeyRing(); }
+  Result<std::optional<PublicKey>> read_server_key() override { return std::optional<PublicKey>(); }
+  Result<PublicKey> claim_server_key() override { return PublicKey(); }
   Result<bool> add(const KeyEntry&) override { return false; }
   Result<bool> invite(const KeyEntry&) override { return false; }
   Result<bool> remove(const std::string&) override { return false; }
-  Result<Binding> bind(const std::string& name, const PresharedKey&) override {
+  Result<Binding> bind(const std::string& name, const PublicKey&) override {
     std::unique_lock lock(mutex_);
     ++begun_;
     changed_.notify_all();
@@ -56,10 +58,11 @@ class Keeping : public ::testing::Test {
     poller_ = std::move(*made);
     auto store = std::make_unique<SlowStore>();
     store_ = store.get();
-    keeper_ = std::make_unique<InvitationKeeper>(
-        std::move(store), *poller_, [this](const InvitationKeeper::Kept& kept) {
-          kept_.emplace(std::string(kept.guest.view()), kept);
-        });
+    keeper_ =
+        std::make_unique<InvitationKeeper>(std::move(store), *WakeEvent::create(), *poller_,
+                                           [this](const InvitationKeeper::Kept& kept) {
+                                             kept_.emplace(std::string(kept.guest.view()), kept);
+                                           });
   }
   void turn_until(std::size_t count) {
     const MonoTime given_up = mono_now() + Duration::s(60);
@@ -74,10 +77,10 @@ class Keeping : public ::testing::Test {
 };
 
 TEST_F(Keeping, AHouseThatAsksAgainWaitsForTheFirstAnswer) {
-  const PresharedKey key = PresharedKey::make();
+  const PublicKey key = PrivateKey::make().public_key();
   keeper_->bind(7, guest("alice"), key);
   store_->wait_for_first();
-  for (int i = 0; i < 10; ++i) keeper_->bind(8, guest("alice"), PresharedKey::make());
+  for (int i = 0; i < 10; ++i) keeper_->bind(8, guest("alice"), PrivateKey::make().public_key());
   keeper_->bind(9, guest("bob"), key);
   keeper_->bind(10, guest("carol"), key);
   store_->open();
@@ -92,7 +95,7 @@ TEST_F(Keeping, AHouseThatAsksAgainWaitsForTheFirstAnswer) {
 
 TEST_F(Keeping, NoMoreWaitThanAreAllowed) {
   for (int i = 0; i < 500; ++i)
-    keeper_->bind(1, guest("guest-" + std::to_string(i)), PresharedKey::make());
+    keeper_->bind(1, guest("guest-" + std::to_string(i)), PrivateKey::make().public_key());
   store_->wait_for_first();
   store_->open();
   turn_until(InvitationKeeper::kMost);
@@ -102,7 +105,7 @@ TEST_F(Keeping, NoMoreWaitThanAreAllowed) {
 
 TEST_F(Keeping, EndsWithWishesThatWait) {
   for (int i = 0; i < 20; ++i)
-    keeper_->bind(1, guest("guest-" + std::to_string(i)), PresharedKey::make());
+    keeper_->bind(1, guest("guest-" + std::to_string(i)), PrivateKey::make().public_key());
   store_->wait_for_first();
   store_->open();
   keeper_.reset();

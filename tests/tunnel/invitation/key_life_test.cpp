@@ -5,10 +5,11 @@
 #include <thread>
 
 #include "tests/test_folder.h"
-#include "tunnel/seal/key_files.h"
-#include "tunnel/seal/utc_text.h"
+#include "tunnel/seal/keys/key_files.h"
+#include "tunnel/seal/keys/utc_text.h"
 #include "tunnel/server/program/cluster/cluster_keys.h"
 #include "tunnel/server/program/invite_command.h"
+#include "tunnel/server/program/key_command.h"
 #include "tunnel/server/program/key_store.h"
 #include "tunnel/server/program/server_keys.h"
 
@@ -21,14 +22,15 @@ KeyEntry invited_entry(std::string_view name, std::int64_t until_s = kNow_s + 36
   KeyEntry entry;
   entry.name = *GuestId::parse(name);
   entry.has_key = false;
-  entry.invitation = InvitationKey{PresharedKey::make(), until_s, InvitationState::kOpen};
+  entry.invitation =
+      InvitationKey{PrivateKey::make().public_key(), until_s, InvitationState::kOpen};
   return entry;
 }
 
 KeyEntry plain_entry(std::string_view name) {
   KeyEntry entry;
   entry.name = *GuestId::parse(name);
-  entry.key = PresharedKey::make();
+  entry.key = PrivateKey::make().public_key();
   return entry;
 }
 
@@ -47,7 +49,7 @@ TEST(InvitationKeys, TheFirstHouseGetsInAndNoOther) {
   EXPECT_EQ(ring.find("alice"), nullptr);
   ASSERT_NE(ring.find_invitation("alice"), nullptr);
   EXPECT_TRUE(ring.is_own_name("alice-2"));
-  const PresharedKey first = PresharedKey::make(), second = PresharedKey::make();
+  const PublicKey first = PrivateKey::make().public_key(), second = PrivateKey::make().public_key();
   EXPECT_FALSE(ring.settled_binding("alice", first, kNow_s));
   EXPECT_EQ(ring.bind("alice", first, kNow_s), Binding::kBound);
   ring = written_and_read(ring);
@@ -66,7 +68,7 @@ TEST(InvitationKeys, TheKeyOpensWhatTheInvitationSaid) {
   host.kind = KeyKind::kHost;
   host.room = *GuestId::parse("salsa");
   ASSERT_TRUE(ring.invite(host));
-  ASSERT_EQ(ring.bind("bob", PresharedKey::make(), kNow_s), Binding::kBound);
+  ASSERT_EQ(ring.bind("bob", PrivateKey::make().public_key(), kNow_s), Binding::kBound);
   ring = written_and_read(ring);
   ASSERT_NE(ring.find("bob"), nullptr);
   EXPECT_EQ(ring.find("bob")->kind, KeyKind::kHost);
@@ -77,7 +79,7 @@ TEST(InvitationKeys, NeitherExpiredNorRevokedOnesBind) {
   KeyRing ring;
   ASSERT_TRUE(ring.invite(invited_entry("alice")));
   ASSERT_TRUE(ring.invite(invited_entry("bob")));
-  const PresharedKey key = PresharedKey::make();
+  const PublicKey key = PrivateKey::make().public_key();
   EXPECT_EQ(ring.bind("alice", key, kNow_s + 3600), Binding::kExpired);
   EXPECT_EQ(ring.find("alice"), nullptr);
   EXPECT_TRUE(ring.remove("bob"));
@@ -123,7 +125,7 @@ TEST(InvitationKeys, AreForgottenADayAfterTheirTime) {
   KeyRing ring;
   for (const char* name : {"open", "used", "revoked"})
     ASSERT_TRUE(ring.invite(invited_entry(name)));
-  const PresharedKey key = PresharedKey::make();
+  const PublicKey key = PrivateKey::make().public_key();
   ASSERT_EQ(ring.bind("used", key, kNow_s), Binding::kBound);
   ASSERT_TRUE(ring.remove("revoked"));
   ring.forget_invitations(kNow_s + 3600 + 86'400);
@@ -136,7 +138,7 @@ TEST(InvitationKeys, AreForgottenADayAfterTheirTime) {
 }
 
 TEST(InvitationKeys, ALineThatIsWrongIsSaidWithoutItsKeys) {
-  const std::string key = PresharedKey::make().text();
+  const std::string key = PrivateKey::make().public_key().text();
   const auto says = [&](const std::string& text, const std::string& part) {
     const auto ring = KeyRing::parse(text, "keys");
     ASSERT_FALSE(ring) << text;
@@ -148,10 +150,10 @@ TEST(InvitationKeys, ALineThatIsWrongIsSaidWithoutItsKeys) {
   says("alice guest * " + key + " invited " + key + until, "- stands for");
   says("alice guest * - used " + key + until, "- stands for");
   says("alice guest * - lost " + key + until, "invited, used or revoked");
-  says("alice guest * - invited " + key, "until when");
-  says("alice guest * - invited " + key + " tomorrow", "until when");
+  says("alice guest * - invited " + key, "until");
+  says("alice guest * - invited " + key + " tomorrow", "until");
   says("alice guest * - invited " + key + "x" + until, "its key");
-  says("alice guest * - invited " + key + until + " x", "until when");
+  says("alice guest * - invited " + key + until + " x", "until");
   says("salsa room salsa - invited " + key + until, "for one guest");
 }
 
@@ -175,11 +177,11 @@ TEST(InvitationKeys, AFileTellsEveryHouseTheSame) {
   ASSERT_TRUE(*store->invite(invited_entry("alice", until_s)));
   // Eight houses at once, each over a store of its own: one gets in, and the file says which.
   constexpr std::size_t kHouses = 8;
-  std::array<PresharedKey, kHouses> made;
+  std::array<PublicKey, kHouses> made;
   std::array<Binding, kHouses> bound{};
   std::vector<std::thread> threads;
   for (std::size_t i = 0; i < kHouses; ++i) {
-    made[i] = PresharedKey::make();
+    made[i] = PrivateKey::make().public_key();
     threads.emplace_back([&, i] {
       const auto own = file_key_store(folder.path("server-keys"));
       bound[i] = own->bind("alice", made[i]).value_or(Binding::kNotKept);
@@ -212,16 +214,87 @@ TEST(InvitationKeys, AClusterTakesNone) {
 }
 
 TEST(InviteCommand, TakesTimesThatPeopleWrite) {
-  EXPECT_EQ(*parse_validity_s("1m"), 60);
-  EXPECT_EQ(*parse_validity_s("90m"), 5400);
-  EXPECT_EQ(*parse_validity_s("24h"), 86'400);
-  EXPECT_EQ(*parse_validity_s("90d"), 90 * 86'400);
+  EXPECT_EQ(*parse_validity_s("--for", "1m", 90), 60);
+  EXPECT_EQ(*parse_validity_s("--for", "90m", 90), 5400);
+  EXPECT_EQ(*parse_validity_s("--for", "24h", 90), 86'400);
+  EXPECT_EQ(*parse_validity_s("--for", "90d", 90), 90 * 86'400);
   for (const char* bad : {"", "h", "0h", "-1h", "24", "24 h", "1.5h", "91d", "2161h", "1w", "24hh",
                           "99999999999999999999h"}) {
-    const auto parsed = parse_validity_s(bad);
+    const auto parsed = parse_validity_s("--for", bad, 90);
     ASSERT_FALSE(parsed) << bad;
     EXPECT_NE(parsed.error().what.find("24h"), std::string::npos);
   }
+}
+
+class KeyCommands : public ::testing::Test {
+ protected:
+  std::string error_of(const KeyCommand& command) {
+    ::testing::internal::CaptureStdout();
+    const auto done = run_key_command(command, *store_);
+    printed_ = ::testing::internal::GetCapturedStdout();
+    return done ? "" : done.error().what;
+  }
+  TestFolder folder_{"key-commands"};
+  std::unique_ptr<KeyStore> store_ = file_key_store(folder_.path("server-keys"));
+  std::string printed_;
+};
+
+TEST_F(KeyCommands, MakeKeysThatExpireAndListUntilWhen) {
+  KeyCommand command;
+  command.new_guest = "alice";
+  command.key_for = "30d";
+  const std::int64_t before_s = utc_now_s();
+  ASSERT_EQ(error_of(command), "");
+  const auto ring = store_->read();
+  ASSERT_TRUE(ring);
+  ASSERT_NE(ring->find("alice"), nullptr);
+  ASSERT_TRUE(ring->find("alice")->until_s);
+  EXPECT_GE(*ring->find("alice")->until_s, before_s + 30 * 86'400 - 60);
+  EXPECT_LE(*ring->find("alice")->until_s, utc_now_s() + 30 * 86'400);
+  KeyCommand list;
+  list.list = true;
+  ASSERT_EQ(error_of(list), "");
+  EXPECT_NE(printed_.find("key until 20"), std::string::npos) << printed_;
+}
+
+TEST_F(KeyCommands, InviteReplacesAnExpiredKey) {
+  KeyEntry old = plain_entry("alice");
+  old.until_s = utc_now_s() - 60;
+  ASSERT_TRUE(*store_->add(old));
+  KeyCommand list;
+  list.list = true;
+  ASSERT_EQ(error_of(list), "");
+  EXPECT_NE(printed_.find("key expired 20"), std::string::npos) << printed_;
+  KeyCommand invite;
+  invite.invite = "alice";
+  invite.address = "dance.example.org";
+  invite.key_for = "90d";
+  ASSERT_EQ(error_of(invite), "");
+  const PublicKey house = PrivateKey::make().public_key();
+  ASSERT_EQ(*store_->bind("alice", house), Binding::kBound);
+  const auto ring = store_->read();
+  ASSERT_TRUE(ring);
+  ASSERT_NE(ring->find("alice"), nullptr);
+  EXPECT_TRUE(ring->find("alice")->key == house);
+  ASSERT_TRUE(ring->find("alice")->until_s) << "the key expires as the invitation said";
+  EXPECT_GT(*ring->find("alice")->until_s, utc_now_s() + 89 * 86'400);
+}
+
+TEST_F(KeyCommands, RefuseTimesThatMakeNoSense) {
+  KeyCommand command;
+  command.new_guest = "alice";
+  for (const char* wrong : {"soon", "0d", "3651d"}) {
+    command.key_for = wrong;
+    const std::string error = error_of(command);
+    EXPECT_NE(error.find("--key-for"), std::string::npos) << error;
+    EXPECT_NE(error.find("3650d"), std::string::npos) << error;
+  }
+  KeyCommand invite;
+  invite.invite = "alice";
+  invite.address = "dance.example.org";
+  invite.invitation.valid_for = "7d";
+  invite.key_for = "1d";
+  EXPECT_NE(error_of(invite).find("--key-for is shorter than --for"), std::string::npos);
 }
 
 }  // namespace

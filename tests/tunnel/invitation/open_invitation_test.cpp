@@ -7,8 +7,8 @@
 #include <fstream>
 
 #include "tests/test_folder.h"
-#include "tunnel/seal/key_files.h"
-#include "tunnel/seal/utc_text.h"
+#include "tunnel/seal/keys/key_files.h"
+#include "tunnel/seal/keys/utc_text.h"
 #include "tunnel/server/program/key_store.h"
 
 namespace dance {
@@ -20,22 +20,24 @@ class OpenedInAHouse : public ::testing::Test {
     invitation_.host = "dance.example.org";
     invitation_.room = *GuestId::parse("salsa");
     invitation_.guest = *GuestId::parse("alice");
-    invitation_.key = PresharedKey::make();
+    invitation_.server_key = *server_->claim_server_key();
+    invitation_.key = PrivateKey::make();
     invitation_.until_s = utc_now_s() / 60 * 60 + 3600;
     KeyEntry entry;
     entry.name = invitation_.guest;
     entry.room = invitation_.room;
     entry.has_key = false;
-    entry.invitation = InvitationKey{invitation_.key, invitation_.until_s, InvitationState::kOpen};
+    entry.invitation =
+        InvitationKey{invitation_.key.public_key(), invitation_.until_s, InvitationState::kOpen};
     ASSERT_TRUE(*server_->invite(entry));
   }
   OpenInvitation house(const std::string& name) {
     OpenInvitation how;
     how.folder = folder_.path(name);
     how.now_s = utc_now_s();
-    how.ask = [this](const Invitation&, const PresharedKey& lasting, Duration) {
+    how.ask = [this](const Invitation&, const PrivateKey& house, Duration) {
       ++asked_;
-      return server_->bind("alice", lasting);
+      return server_->bind("alice", house.public_key());
     };
     return how;
   }
@@ -47,7 +49,8 @@ class OpenedInAHouse : public ::testing::Test {
     const KeyEntry* entry = ring->find("alice");
     const auto keys = HouseKeys::parse(keys_of(name), "keys");
     const HouseKey* key = keys->find("dance.example.org:7400", invitation_.room, invitation_.guest);
-    return entry != nullptr && key != nullptr && key->key == entry->key;
+    return entry != nullptr && key != nullptr && key->server_key == *server_->claim_server_key() &&
+           house_identity(folder_.path(name))->public_key() == entry->key;
   }
 
   TestFolder folder_{"open-invitation"};
@@ -76,6 +79,57 @@ TEST_F(OpenedInAHouse, TwiceOnTheSameMachineItAsksOnce) {
   EXPECT_EQ(asked_, 1);
 }
 
+TEST_F(OpenedInAHouse, IsKnownOnlyWithTheKeyThatTheServerAccepted) {
+  const std::string folder = folder_.path("alice");
+  EXPECT_FALSE(*was_opened_before(invitation_, folder));
+  ASSERT_TRUE(open_invitation(invitation_, house("alice")));
+  EXPECT_TRUE(*was_opened_before(invitation_, folder));
+  Invitation other = invitation_;
+  other.key = PrivateKey::make();
+  EXPECT_FALSE(*was_opened_before(other, folder)) << "a link that anybody could have made";
+  other = invitation_;
+  other.host = "stranger.example.org";
+  EXPECT_FALSE(*was_opened_before(other, folder));
+  EXPECT_FALSE(*was_opened_before(invitation_, folder_.path("bob")));
+}
+
+TEST_F(OpenedInAHouse, StopsAtAnInvitationThatNamesAnotherKeyOfAKnownServer) {
+  ASSERT_TRUE(open_invitation(invitation_, house("alice")));
+  Invitation forged = invitation_;
+  forged.key = PrivateKey::make();
+  forged.room = *GuestId::parse("tango");
+  forged.server_key = PrivateKey::make().public_key();
+  const auto opened = open_invitation(forged, house("alice"));
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(asked_, 1) << "nothing is sent to a server that may be another one";
+  EXPECT_NE(opened.error().what.find("another key of dance.example.org:7400"), std::string::npos)
+      << opened.error().what;
+  EXPECT_NE(opened.error().what.find("dance key --trust dance.example.org:7400=" +
+                                     forged.server_key.text()),
+            std::string::npos)
+      << opened.error().what;
+  EXPECT_FALSE(*was_opened_before(forged, folder_.path("alice")));
+  EXPECT_TRUE(*names_other_server_key(forged, folder_.path("alice")));
+  EXPECT_FALSE(*names_other_server_key(invitation_, folder_.path("alice")));
+  EXPECT_FALSE(*names_other_server_key(forged, folder_.path("bob"))) << "it knows no server";
+  // A line without a port is used for all ports of its host.
+  HouseKey portless = invitation_.house_key();
+  portless.server = invitation_.host;
+  ASSERT_TRUE(write_secret(folder_.path("carol/keys"), portless.line() + "\n"));
+  EXPECT_FALSE(open_invitation(forged, house("carol")));
+  EXPECT_EQ(asked_, 1);
+  // Once the user has confirmed the change, all lines of this server have the new key.
+  OpenInvitation confirmed = house("alice");
+  confirmed.trusts_new_key = true;
+  ASSERT_TRUE(open_invitation(forged, confirmed));
+  const auto keys = HouseKeys::parse(keys_of("alice"), "keys");
+  ASSERT_EQ(keys->keys().size(), 2u);
+  for (const HouseKey& key : keys->keys()) EXPECT_EQ(key.server_key, forged.server_key);
+  forged = invitation_;
+  forged.server_key = PrivateKey::make().public_key();
+  EXPECT_FALSE(*was_opened_before(forged, folder_.path("alice")));
+}
+
 TEST_F(OpenedInAHouse, AnotherHouseIsRefusedAndTold) {
   ASSERT_TRUE(open_invitation(invitation_, house("alice")));
   const auto opened = open_invitation(invitation_, house("thief"));
@@ -88,14 +142,14 @@ TEST_F(OpenedInAHouse, AnotherHouseIsRefusedAndTold) {
 
 TEST_F(OpenedInAHouse, AnAnswerThatIsLostLocksNobodyOut) {
   OpenInvitation lossy = house("alice");
-  lossy.ask = [&](const Invitation&, const PresharedKey& lasting, Duration) -> Result<Binding> {
-    EXPECT_EQ(*server_->bind("alice", lasting), Binding::kBound);
+  lossy.ask = [&](const Invitation&, const PrivateKey& house, Duration) -> Result<Binding> {
+    EXPECT_EQ(*server_->bind("alice", house.public_key()), Binding::kBound);
     return fail("the server does not answer");
   };
   ASSERT_FALSE(open_invitation(invitation_, lossy));
   EXPECT_EQ(keys_of("alice"), "");
-  // Another house cannot use the pause, and this one comes in with the key that it had made; also
-  // when the invitation's time is over by then.
+  // Another house cannot use the pause, and this one is let in; also when the invitation's time is
+  // over by then.
   EXPECT_FALSE(open_invitation(invitation_, house("thief")));
   OpenInvitation later = house("alice");
   later.now_s = invitation_.until_s + 60;
@@ -107,18 +161,18 @@ TEST_F(OpenedInAHouse, AnAnswerThatIsLostLocksNobodyOut) {
 TEST_F(OpenedInAHouse, AHouseThatEndsBeforeItHasKeptTheKeyGoesOn) {
   ASSERT_TRUE(open_invitation(invitation_, house("alice")));
   // As the disk was between the server's answer and the key that is kept.
-  const auto ring = server_->read();
-  HouseKey key = invitation_.house_key(ring->find("alice")->key);
   ASSERT_TRUE(write_secret(folder_.path("alice/keys"), ""));
-  ASSERT_TRUE(write_secret(folder_.path("alice/invitations"),
-                           invitation_.key.fingerprint() + " pending " + key.line() + "\n"));
+  ASSERT_TRUE(
+      write_secret(folder_.path("alice/invitations"),
+                   invitation_.key.fingerprint() + " pending " + invitation_.title() + "\n"));
   EXPECT_FALSE(is_let_in("alice"));
   const auto opened = open_invitation(invitation_, house("alice"));
   ASSERT_TRUE(opened) << opened.error().what;
   EXPECT_TRUE(is_let_in("alice"));
   // And where the key was kept and that it was opened was not.
-  ASSERT_TRUE(write_secret(folder_.path("alice/invitations"),
-                           invitation_.key.fingerprint() + " pending " + key.line() + "\n"));
+  ASSERT_TRUE(
+      write_secret(folder_.path("alice/invitations"),
+                   invitation_.key.fingerprint() + " pending " + invitation_.title() + "\n"));
   ASSERT_TRUE(open_invitation(invitation_, house("alice")));
   EXPECT_TRUE(is_let_in("alice"));
 }
@@ -126,8 +180,8 @@ TEST_F(OpenedInAHouse, AHouseThatEndsBeforeItHasKeptTheKeyGoesOn) {
 TEST_F(OpenedInAHouse, AForgedRefusalLocksNobodyOut) {
   // The answer is lost, and then somebody on the way refuses the handshake.
   OpenInvitation lossy = house("alice");
-  lossy.ask = [&](const Invitation&, const PresharedKey& lasting, Duration) -> Result<Binding> {
-    EXPECT_EQ(*server_->bind("alice", lasting), Binding::kBound);
+  lossy.ask = [&](const Invitation&, const PrivateKey& house, Duration) -> Result<Binding> {
+    EXPECT_EQ(*server_->bind("alice", house.public_key()), Binding::kBound);
     return Binding::kUnknown;
   };
   const auto refused = open_invitation(invitation_, lossy);
@@ -139,11 +193,11 @@ TEST_F(OpenedInAHouse, AForgedRefusalLocksNobodyOut) {
 
 TEST_F(OpenedInAHouse, AServerThatEndsBeforeItHasWrittenTakesItLater) {
   OpenInvitation silent = house("alice");
-  silent.ask = [](const Invitation&, const PresharedKey&, Duration) -> Result<Binding> {
+  silent.ask = [](const Invitation&, const PrivateKey&, Duration) -> Result<Binding> {
     return fail("the server does not answer");
   };
   ASSERT_FALSE(open_invitation(invitation_, silent));
-  silent.ask = [](const Invitation&, const PresharedKey&, Duration) -> Result<Binding> {
+  silent.ask = [](const Invitation&, const PrivateKey&, Duration) -> Result<Binding> {
     return Binding::kNotKept;
   };
   const auto not_kept = open_invitation(invitation_, silent);
@@ -184,7 +238,7 @@ TEST_F(OpenedInAHouse, OtherKeysStay) {
   HouseKeys before;
   Invitation other = invitation_;
   other.host = "other.example.org";
-  before.put(other.house_key(PresharedKey::make()));
+  before.put(other.house_key());
   ASSERT_TRUE(write_secret(folder_.path("alice/keys"), before.text()));
   ASSERT_TRUE(open_invitation(invitation_, house("alice")));
   const auto keys = HouseKeys::parse(keys_of("alice"), "keys");

@@ -6,26 +6,24 @@
 namespace dance {
 namespace {
 
-KeyEntry invited(std::string_view name) {
-  KeyEntry entry = key_of(name);
+// `own` is the private key in the invitation.
+GuestKey invited(std::string_view name) {
+  GuestKey entry = key_of(name);
+  entry.key = PublicKey();
   entry.has_key = false;
-  entry.invitation = InvitationKey{PresharedKey::make(), 2'000'000'000, InvitationState::kOpen};
+  entry.invitation = InvitationKey{entry.own.public_key(), 2'000'000'000, InvitationState::kOpen};
   return entry;
 }
 
-std::string wish_for(const PresharedKey& key) {
-  std::string text(1, static_cast<char>(seal::kBindingWish));
-  text.append(key.bytes().begin(), key.bytes().end());
-  return text;
-}
+const std::string kBindingRequest(1, static_cast<char>(seal::kBindingRequest));
 
-struct Wished {
+struct RequestedBinding {
   std::uint64_t peer;
   std::string guest;
-  PresharedKey lasting;
+  PublicKey house;
 };
 
-// A street whose server writes down what houses wish.
+// A street whose server notes what houses request.
 struct InvitingStreet : SealedStreet {
   explicit InvitingStreet(std::vector<KeyEntry> entries) : SealedStreet(std::move(entries)) {
     SealServer::Handlers handlers;
@@ -34,17 +32,18 @@ struct InvitingStreet : SealedStreet {
       heard.push_back({peer, std::string(key.name.view()), {plain.begin(), plain.end()}});
     };
     handlers.on_end = [this](std::uint64_t peer) { ended.push_back(peer); };
-    handlers.on_binding = [this](std::uint64_t peer, const KeyEntry& key,
-                                 const PresharedKey& lasting) {
-      wished.push_back({peer, std::string(key.name.view()), lasting});
+    handlers.on_binding = [this](std::uint64_t peer, const KeyEntry& key, const PublicKey& house) {
+      requested.push_back({peer, std::string(key.name.view()), house});
     };
     server = *SealServer::make(
-        limits, keys, certificates, [this] { return random.next_u64(); }, std::move(handlers),
-        sink);
+        limits, identity, keys, certificates, [this] { return random.next_u64(); },
+        std::move(handlers), sink);
   }
-  House& add_invited(const KeyEntry& entry) {
-    return add_house(std::string(seal::kInvitedPrefix) + std::string(entry.name.view()),
-                     entry.invitation->key);
+  // Its last datagrams still go to the sink.
+  ~InvitingStreet() { server.reset(); }
+  House& add_invited(const GuestKey& entry, const PrivateKey& house = PrivateKey::make()) {
+    return add_house(std::string(seal::kInvitedPrefix) + std::string(entry.name.view()), house,
+                     entry.own);
   }
 
   struct Sink final : DatagramSink {
@@ -54,22 +53,22 @@ struct InvitingStreet : SealedStreet {
     }
     InvitingStreet& street;
   } sink{*this};
-  std::vector<Wished> wished;
+  std::vector<RequestedBinding> requested;
 };
 
-TEST(SealedInvitation, NamesAKeyAndHearsTheAnswer) {
-  const KeyEntry alice = invited("alice");
+TEST(SealedInvitation, RequestsTheBindingOfItsIdentityAndReceivesTheAnswer) {
+  const GuestKey alice = invited("alice");
   InvitingStreet street({alice});
-  auto& house = street.add_invited(alice);
+  const PrivateKey identity_of_house = PrivateKey::make();
+  auto& house = street.add_invited(alice, identity_of_house);
   street.run(Duration::ms(20));
   ASSERT_EQ(house.sealed, 1);
-  const PresharedKey lasting = PresharedKey::make();
-  street.say(house, wish_for(lasting));
+  street.say(house, kBindingRequest);
   street.run(Duration::ms(10));
-  ASSERT_EQ(street.wished.size(), 1u);
-  EXPECT_EQ(street.wished[0].guest, "alice");
-  EXPECT_TRUE(street.wished[0].lasting == lasting);
-  street.server->answer_binding(street.wished[0].peer, Binding::kUsed);
+  ASSERT_EQ(street.requested.size(), 1u);
+  EXPECT_EQ(street.requested[0].guest, "alice");
+  EXPECT_EQ(street.requested[0].house, identity_of_house.public_key());
+  street.server->answer_binding(street.requested[0].peer, Binding::kUsed);
   street.run(Duration::ms(10));
   ASSERT_EQ(house.heard.size(), 1u);
   EXPECT_EQ(house.heard[0], std::string({static_cast<char>(seal::kBindingAnswer),
@@ -77,30 +76,46 @@ TEST(SealedInvitation, NamesAKeyAndHearsTheAnswer) {
 }
 
 TEST(SealedInvitation, OpensNoRoom) {
-  const KeyEntry alice = invited("alice");
+  const GuestKey alice = invited("alice");
   InvitingStreet street({alice});
   auto& house = street.add_invited(alice);
   street.run(Duration::ms(20));
   ASSERT_EQ(house.sealed, 1);
-  const std::string wish = wish_for(PresharedKey::make());
-  // A key alone, which is random, may begin as another message does: one that does not.
-  const std::string key(wish.size() - 1, 'x');
-  for (const std::string& text :
-       {std::string("hello"), key, wish.substr(0, 32), wish + "x", std::string("\0", 1)})
+  for (const std::string& text : {std::string("hello"), kBindingRequest + "x",
+                                  kBindingRequest + std::string(32, 'x'), std::string("\0", 1)})
     street.say(house, text);
   street.run(Duration::ms(10));
   EXPECT_TRUE(street.heard.empty());
-  EXPECT_TRUE(street.wished.empty());
-  EXPECT_EQ(street.server->counters().of(SealReject::kMalformed), 5u);
+  EXPECT_TRUE(street.requested.empty());
+  EXPECT_EQ(street.server->counters().of(SealReject::kMalformed), 4u);
+}
+
+// Each request makes the server look into its key file.
+TEST(SealedInvitation, RequestsOfOneSessionAreHandledEightTimesASecond) {
+  const GuestKey alice = invited("alice");
+  InvitingStreet street({alice});
+  auto& house = street.add_invited(alice);
+  street.run(Duration::ms(20));
+  for (int i = 0; i < 1000; ++i) {
+    street.say(house, kBindingRequest);
+    street.run(Duration::ms(5));
+    // Answers keep the link from making another session.
+    street.server->answer_binding(street.requested.front().peer, Binding::kNotHere);
+  }
+  EXPECT_GE(street.requested.size(), 40u);
+  EXPECT_LE(street.requested.size(), 8u + 41u);
+  EXPECT_EQ(street.requested.size() + street.server->counters().of(SealReject::kControlRate),
+            1000u);
 }
 
 TEST(SealedInvitation, ThePlainNameOpensNothingWithItsKey) {
-  const KeyEntry alice = invited("alice"), bob = key_of("bob");
+  const GuestKey alice = invited("alice"), bob = key_of("bob");
   InvitingStreet street({alice, bob});
-  auto& plain = street.add_house("alice", alice.invitation->key);
-  auto& uninvited = street.add_house("invited:bob", bob.key);
-  auto& nobody = street.add_house("invited:", alice.invitation->key);
-  auto& wrong = street.add_house("invited:alice", PresharedKey::make());
+  const PrivateKey house_of_all = PrivateKey::make();
+  auto& plain = street.add_house("alice", house_of_all, alice.own);
+  auto& uninvited = street.add_house("invited:bob", house_of_all, bob.own);
+  auto& nobody = street.add_house("invited:", house_of_all, alice.own);
+  auto& wrong = street.add_house("invited:alice", house_of_all, PrivateKey::make());
   street.run(Duration::ms(100));
   for (auto* house : {&plain, &uninvited, &nobody, &wrong}) {
     EXPECT_EQ(house->sealed, 0);
@@ -112,28 +127,30 @@ TEST(SealedInvitation, ThePlainNameOpensNothingWithItsKey) {
 }
 
 TEST(SealedInvitation, GuessesAreThrottledAsThoseOfKeysAre) {
-  const KeyEntry alice = invited("alice");
+  const GuestKey alice = invited("alice");
   InvitingStreet street({alice});
-  // A guesser who takes a new session for each guess, and one address for all.
+  // A guesser takes a new session for each guess, and one address for all. Its first datagrams are
+  // limited: 200 at once, and 100 a second.
   for (int i = 0; i < 300; ++i) {
-    auto& guesser = street.add_house("invited:alice", PresharedKey::make());
+    auto& guesser = street.add_house("invited:alice", PrivateKey::make(), PrivateKey::make());
     guesser.address = *Address::resolve("192.0.2.7:" + std::to_string(2000 + i));
     guesser.client->tick(street.now);
   }
   street.run(Duration::ms(5));
   const SealCounters& counters = street.server->counters();
-  EXPECT_LE(counters.handshakes_begun, 120u);
+  EXPECT_LE(counters.handshakes_begun, 200u);
   EXPECT_GT(counters.of(SealReject::kStrangerRate), 0u);
   EXPECT_EQ(counters.handshakes_done, 0u);
 }
 
 TEST(SealedInvitation, ManySessionsOfOneLeaveTheGuestHerPlace) {
-  KeyEntry alice = invited("alice");
-  alice.key = PresharedKey::make();
+  GuestKey alice = invited("alice");
+  const PrivateKey house_of_alice = PrivateKey::make();
+  alice.key = house_of_alice.public_key();
   alice.has_key = true;
   alice.invitation->state = InvitationState::kUsed;
   InvitingStreet street({alice});
-  auto& guest = street.add_house("alice", alice.key);
+  auto& guest = street.add_house("alice", house_of_alice);
   street.run(Duration::ms(20));
   ASSERT_EQ(guest.sealed, 1);
   for (int i = 0; i < 12; ++i) street.add_invited(alice);
@@ -150,19 +167,20 @@ TEST(SealedInvitation, ManySessionsOfOneLeaveTheGuestHerPlace) {
 }
 
 TEST(SealedInvitation, ItsSessionStaysWhenItIsUsedAndEndsWhenAnotherTakesItsPlace) {
-  KeyEntry alice = invited("alice");
+  GuestKey alice = invited("alice");
   InvitingStreet street({alice});
   auto& house = street.add_invited(alice);
   street.run(Duration::ms(20));
   ASSERT_EQ(house.sealed, 1);
   KeyEntry bound = alice;
-  bound.key = PresharedKey::make();
+  const PrivateKey house_of_alice = PrivateKey::make();
+  bound.key = house_of_alice.public_key();
   bound.has_key = true;
   bound.invitation->state = InvitationState::kUsed;
   street.set_keys({bound});
   EXPECT_EQ(street.server->peer_count(), 1u);
   // The guest with her key stays while what is known of her invitation is forgotten.
-  auto& guest = street.add_house("alice", bound.key);
+  auto& guest = street.add_house("alice", house_of_alice);
   street.run(Duration::ms(20));
   ASSERT_EQ(guest.sealed, 1);
   EXPECT_EQ(street.server->peer_count(), 2u);
@@ -177,12 +195,12 @@ TEST(SealedInvitation, ItsSessionStaysWhenItIsUsedAndEndsWhenAnotherTakesItsPlac
 }
 
 TEST(SealedInvitation, AServerThatTakesNoneSaysSo) {
-  const KeyEntry alice = invited("alice");
+  const GuestKey alice = invited("alice");
   SealedStreet street({alice});
-  auto& house = street.add_house("invited:alice", alice.invitation->key);
+  auto& house = street.add_house("invited:alice", PrivateKey::make(), alice.own);
   street.run(Duration::ms(20));
   ASSERT_EQ(house.sealed, 1);
-  street.say(house, wish_for(PresharedKey::make()));
+  street.say(house, kBindingRequest);
   street.run(Duration::ms(10));
   ASSERT_EQ(house.heard.size(), 1u);
   EXPECT_EQ(house.heard[0][1], static_cast<char>(Binding::kNotHere));

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "tests/fuzz_target.h"
 #include "tunnel/nats/messages/nats_reader.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(nats_reader) {
   if (size < 1) return 0;
   const std::size_t step = data[0] + std::size_t{1};
   dance::NatsReader reader;

@@ -83,10 +83,7 @@ class ClusterOperation : public ::testing::Test {
     return *programs_.emplace(name, std::make_unique<ChildProcess>(std::move(*child)))
                 .first->second;
   }
-  void kill_program(const std::string& name) {
-    ::kill(programs_.at(name)->pid(), SIGKILL);
-    programs_.at(name)->wait(Duration::s(5));
-  }
+  void kill_program(const std::string& name) { programs_.at(name)->kill_now(); }
   std::string talk_of(const std::string& name) const {
     return text_of(folder_.path(name + ".talk"));
   }

@@ -4,9 +4,10 @@
 #include <string_view>
 
 #include "core/base/assert.h"
+#include "tests/fuzz_target.h"
 #include "tunnel/policy/channel_rule.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(channel_rule) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   const std::size_t end = std::min(text.find('\n'), size);
   const auto rule = dance::ChannelRule::parse(text.substr(0, end));

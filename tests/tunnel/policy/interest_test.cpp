@@ -12,7 +12,7 @@ int divider_of(const Result<Interest>& interest, const char* name) {
   return interest ? interest->divider_of(*GuestId::parse(name)) : -1;
 }
 
-TEST(Interest, IsWrittenByName) {
+TEST(InterestRule, IsWrittenByName) {
   const auto some =
       parse_interest(std::vector<std::string>{"alice=1", "default=2", "bob=0", "c=255"});
   EXPECT_EQ(divider_of(some, "alice"), 1);
@@ -22,7 +22,7 @@ TEST(Interest, IsWrittenByName) {
   EXPECT_EQ(divider_of(parse_interest({}), "dora"), 1) << "who says nothing wants all";
 }
 
-TEST(Interest, NamesWhatIsWrongAndNotWhereItStood) {
+TEST(InterestRule, NamesWhatIsWrongAndNotWhereItStood) {
   for (const char* wrong : {"", "alice", "alice=", "alice=-1", "alice=256", "alice=1x", "=1",
                             "Alice=1", "default=x", "alice = 1", "alice=99999999999"}) {
     const auto refused = parse_interest(std::vector<std::string>{wrong});
@@ -35,7 +35,7 @@ TEST(Interest, NamesWhatIsWrongAndNotWhereItStood) {
   EXPECT_FALSE(parse_interest(std::vector<std::string>{"default=1", "default=1"}));
 }
 
-TEST(Interest, HasAnEnd) {
+TEST(InterestRule, HasAnEnd) {
   std::vector<std::string> words{"default=0"};
   for (std::size_t i = 0; i < kMaxInterestGuests; ++i)
     words.push_back("g" + std::to_string(i) + "=1");

@@ -6,10 +6,10 @@
 namespace dance {
 namespace {
 
-class HiddenGuests : public TwoHouses {
+class HiddenGuests : public RemovalHouses {
  protected:
   void SetUp() override {
-    TwoHouses::SetUp();
+    RemovalHouses::SetUp();
     if (HasFatalFailure()) return;
     host_->viewer->subscribe<Pose>(Where::kGuest,
                                    [this](const Channel&, const Pose&, MonoTime) { ++heard_; });
@@ -18,15 +18,15 @@ class HiddenGuests : public TwoHouses {
       pose.sequence = ++danced_;
       pose.capture_time = now;
       pose.clock_id = this_clock_id();
-      bob_->viewer->publish(Where::kCapture, named("bob"), pose);
+      bob_->port->publish(Where::kCapture, named("bob"), pose);
       return now + Duration::ms(2);  // as fast as a server takes it
     });
   }
   // As a window says it: what it hides, and that it is there.
-  void say(std::uint64_t clock_id = this_clock_id()) {
+  void say() {
     wish_.time = mono_now();
-    wish_.clock_id = clock_id;
-    host_->viewer->publish(Channel::of_house(Signal::kInterest), wish_);
+    wish_.clock_id = this_clock_id();
+    host_->port->publish(Channel::of_house(Signal::kInterest), wish_);
   }
   // And again, until is_there_ is false.
   void say_again_and_again() {
@@ -35,8 +35,8 @@ class HiddenGuests : public TwoHouses {
     poller_->add_timer(mono_now() + kAgain, [this](MonoTime now) {
       if (is_there_) say();
       if (is_there_ && hears_)
-        host_->viewer->publish(Channel::of_house(Signal::kHearing),
-                               HearingWish{mono_now(), this_clock_id(), named("hanna"), true, {}});
+        host_->port->publish(Channel::of_house(Signal::kHearing),
+                             HearingWish{mono_now(), this_clock_id(), named("hanna"), true, {}});
       return is_there_ ? now + kAgain : MonoTime();
     });
   }
@@ -94,33 +94,6 @@ TEST_F(HiddenGuests, ComeBackWhenTheWindowHasDiedOrTheHouseHearsThem) {
   is_there_ = false;
   host_->link_bus->publish_second(mono_now() + InterestWishes::kHolds + Duration::s(1));
   EXPECT_TRUE(come_again()) << "as if nothing had been said for so long";
-}
-
-// It is shown there, for all that is known here; a recording hides nobody either.
-TEST_F(HiddenGuests, ComeWhileAWindowOfAnotherClockIsThere) {
-  wish_.hidden[0] = named("bob");
-  say_again_and_again();
-  ASSERT_TRUE(come_no_more());
-  InterestWish elsewhere{mono_now(), this_clock_id() + 1, wish_.viewer + 2, wish_.hidden};
-  bool is_open = true;
-  poller_->add_timer(mono_now(), [&](MonoTime now) {
-    if (is_open) host_->viewer->publish(Channel::of_house(Signal::kInterest), elsewhere);
-    return is_open ? now + kAgain : MonoTime();
-  });
-  EXPECT_TRUE(come_again());
-  is_open = false;
-  host_->link_bus->publish_second(mono_now() + InterestWishes::kHolds + Duration::s(1));
-  EXPECT_TRUE(come_no_more()) << "that window has ended";
-}
-
-TEST_F(HiddenGuests, AreNotThoseOfARecording) {
-  wish_.hidden[0] = named("bob");
-  say(this_clock_id() + 1);
-  // Behind it on the same bus: when this is answered, that was heard.
-  host_->ask({mono_now(), this_clock_id(), 9, named("nobody")});
-  ASSERT_TRUE(turn_until([&] { return host_->status.verdict == RemovalVerdict::kNoSuchGuest; }));
-  EXPECT_TRUE(come_again());
-  EXPECT_GE(forwarded_of(40), 30u);
 }
 
 }  // namespace

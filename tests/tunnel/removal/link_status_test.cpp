@@ -6,7 +6,7 @@
 namespace dance {
 namespace {
 
-constexpr MonoTime kNow = MonoTime::from_us(9'000'000);
+constexpr MonoTime kStatusTime = MonoTime::from_us(9'000'000);
 
 struct Told {
   Told() {
@@ -25,10 +25,10 @@ TEST(LinkStatus, SaysWhatIsWrongUntilTheLinkIsConnected) {
   EXPECT_EQ(told.status.status().trouble, HouseLinkTrouble::kNoAnswer);
   told.handlers.on_no_entry(SealTrouble::kWrongKey);
   EXPECT_EQ(told.status.status().trouble, HouseLinkTrouble::kWrongKey);
-  told.handlers.on_state(LinkState::kConnected, kNow);
+  told.handlers.on_state(LinkState::kConnected, kStatusTime);
   EXPECT_EQ(told.status.status().trouble, HouseLinkTrouble::kNone);
   EXPECT_EQ(told.status.status().state, HouseLinkState::kConnected);
-  told.handlers.on_state(LinkState::kLapsed, kNow);
+  told.handlers.on_state(LinkState::kLapsed, kStatusTime);
   EXPECT_EQ(told.status.status().state, HouseLinkState::kLapsed);
   EXPECT_EQ(told.states, 2) << "what the handler did before is done first";
   EXPECT_GE(told.changes, 4);
@@ -39,15 +39,15 @@ TEST(LinkStatus, NamesARefusalAndItsGuest) {
   wire::RefusalNotice refusal;
   refusal.cause = wire::Refusal::kNameTaken;
   refusal.guest = *GuestId::parse("bob");
-  told.handlers.on_refused(refusal, kNow);
+  told.handlers.on_refused(refusal, kStatusTime);
   EXPECT_EQ(told.status.status().trouble, HouseLinkTrouble::kRefused);
   EXPECT_EQ(told.status.status().refusal, static_cast<int>(wire::Refusal::kNameTaken));
   EXPECT_EQ(told.status.status().refused.view(), "bob");
   refusal.cause = wire::Refusal::kRemoved;
   refusal.seconds = 600;
-  told.handlers.on_refused(refusal, kNow);
+  told.handlers.on_refused(refusal, kStatusTime);
   EXPECT_EQ(told.status.status().trouble, HouseLinkTrouble::kRemoved);
-  EXPECT_EQ(told.status.status().asks_again, kNow + Duration::s(600));
+  EXPECT_EQ(told.status.status().asks_again, kStatusTime + Duration::s(600));
   EXPECT_TRUE(is_valid(told.status.status()));
 }
 

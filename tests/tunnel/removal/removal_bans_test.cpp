@@ -11,7 +11,7 @@ namespace {
 constexpr MonoTime kNow = MonoTime::from_us(5'000'000);
 using Guests = FixedList<GuestId, wire::kMaxGuestsPerLink>;
 
-Guests named(const char* name) {
+Guests guests_named(const char* name) {
   Guests guests;
   EXPECT_TRUE(guests.try_push(guest(name)));
   return guests;
@@ -31,24 +31,25 @@ bool is_refused(const RemovalBans& bans, const Asker& asker, MonoTime now = kNow
 TEST(RemovalBans, RefusesAKeyOfOneNameByItsName) {
   RemovalBans bans;
   bans.add(guest("salsa"), {guest("bob-2"), 77, guest("bob"), true}, kNow);
-  EXPECT_TRUE(is_refused(bans, {{.name = guest("bob")}, named("bob-3")}));
+  EXPECT_TRUE(is_refused(bans, {{.name = guest("bob")}, guests_named("bob-3")}));
   EXPECT_TRUE(is_refused(bans, {{.name = guest("bob")}, {}})) << "nor does it listen";
-  EXPECT_FALSE(is_refused(bans, {{.name = guest("alice")}, named("alice")}));
-  EXPECT_FALSE(is_refused(bans, {{.name = guest("bob"), .any_name = true}, named("carla")}))
+  EXPECT_FALSE(is_refused(bans, {{.name = guest("alice")}, guests_named("alice")}));
+  EXPECT_FALSE(is_refused(bans, {{.name = guest("bob"), .any_name = true}, guests_named("carla")}))
       << "a key of a room that bears the same name";
-  EXPECT_FALSE(is_refused(bans, {{.name = guest("bob")}, named("bob")}, kNow, "tango"));
-  EXPECT_TRUE(is_refused(bans, {{.name = guest("alice")}, named("alice"), 77})) << "that link";
+  EXPECT_FALSE(is_refused(bans, {{.name = guest("bob")}, guests_named("bob")}, kNow, "tango"));
+  EXPECT_TRUE(is_refused(bans, {{.name = guest("alice")}, guests_named("alice"), 77}))
+      << "that link";
 }
 
 TEST(RemovalBans, RefusesAKeyThatAllShareByTheNamesOfGuests) {
   RemovalBans bans;
   const Access all{.name = guest("key-of-room"), .any_name = true};
   bans.add(guest("salsa"), {guest("bob"), 77, {}, true}, kNow);
-  EXPECT_TRUE(is_refused(bans, {all, named("bob")}));
-  EXPECT_FALSE(is_refused(bans, {all, named("carla")}));
+  EXPECT_TRUE(is_refused(bans, {all, guests_named("bob")}));
+  EXPECT_FALSE(is_refused(bans, {all, guests_named("carla")}));
   EXPECT_FALSE(is_refused(bans, {all, {}})) << "who only listens has no name";
   EXPECT_TRUE(is_refused(bans, {all, {}, 77}));
-  EXPECT_FALSE(is_refused(bans, {{.name = guest("bob")}, named("bob")}))
+  EXPECT_FALSE(is_refused(bans, {{.name = guest("bob")}, guests_named("bob")}))
       << "bob has a key of his own: the other was not his";
 }
 
@@ -56,8 +57,9 @@ TEST(RemovalBans, EndByThemselvesAndAreBounded) {
   RemovalBans bans;
   const Access bob{.name = guest("bob")};
   bans.add(guest("salsa"), {guest("bob"), 7, guest("bob"), true}, kNow);
-  EXPECT_TRUE(is_refused(bans, {bob, named("bob")}, kNow + wire::kRemovedFor - Duration::ms(1)));
-  EXPECT_FALSE(is_refused(bans, {bob, named("bob")}, kNow + wire::kRemovedFor));
+  EXPECT_TRUE(
+      is_refused(bans, {bob, guests_named("bob")}, kNow + wire::kRemovedFor - Duration::ms(1)));
+  EXPECT_FALSE(is_refused(bans, {bob, guests_named("bob")}, kNow + wire::kRemovedFor));
   for (std::size_t i = 0; i < 2 * RemovalBans::kMost; ++i) {
     const GuestId who = guest("g" + std::to_string(i));
     bans.add(guest("salsa"), {who, 100 + i, who, true},

@@ -12,7 +12,10 @@
 #include <memory>
 #include <string>
 
+#include "core/control/house_inputs.h"
+#include "core/control/house_publisher.h"
 #include "core/net/mono_clock.h"
+#include "tests/tunnel/seal/guest_key.h"
 #include "tunnel/link/link_bus.h"
 #include "tunnel/server/server.h"
 
@@ -20,21 +23,17 @@ namespace dance {
 
 inline GuestId named(const char* name) { return *GuestId::parse(name); }
 
-inline KeyEntry key_of(const char* name, KeyKind kind) {
-  KeyEntry key;
-  key.name = named(name);
-  key.kind = kind;
-  key.key = PresharedKey::make();
-  return key;
-}
-
 // As dance link puts them together; the bus is heard as a viewer hears it.
 struct BusHouse {
-  BusHouse(const std::string& url, const KeyEntry& key, const Address& server, Poller& poller) {
+  BusHouse(const std::string& url, const GuestKey& key, const PublicKey& server_key,
+           const Address& server, Poller& poller) {
     auto opened = Bus::open(url);
     EXPECT_TRUE(opened) << opened.error().what;
     bus = std::move(*opened);
-    captures = std::make_unique<Captures>(*bus, this_clock_id());
+    HouseInputs::Options taken;
+    taken.bus_url = url;
+    inputs = std::make_unique<HouseInputs>(*bus, *bus, std::move(taken), poller);
+    captures = std::make_unique<Captures>(*inputs, this_clock_id());
     link_bus = std::make_unique<LinkBus>(*bus, *captures, this_clock_id());
     LinkHandlers handlers = link_bus->handlers();
     handlers.on_refused = [this](const wire::RefusalNotice& refusal, MonoTime) {
@@ -44,11 +43,9 @@ struct BusHouse {
     LinkOptions options;
     options.room = named("salsa");
     EXPECT_TRUE(options.guests.try_push(key.name));
-    LinkBus::add_face_rule(options.channels);
-    LinkKey link_key;
-    link_key.name = std::string(key.name.view());
-    link_key.key = key.key;
-    auto made = Link::open({server}, link_key, options, std::move(handlers), poller);
+    LinkBus::add_own_rules(options.channels);
+    auto made =
+        Link::open({server}, link_key_of(key, server_key), options, std::move(handlers), poller);
     EXPECT_TRUE(made) << made.error().what;
     link = std::move(*made);
     link_bus->attach(*link);
@@ -59,6 +56,7 @@ struct BusHouse {
     auto viewer_bus = Bus::open(url);
     EXPECT_TRUE(viewer_bus) << viewer_bus.error().what;
     viewer = std::move(*viewer_bus);
+    port = std::make_unique<HousePublisher>(*viewer, url, poller);
     viewer->subscribe<HouseLink>(
         Where::kLocal, [this](const Channel&, const HouseLink& told, MonoTime) { status = told; });
     for (Bus* of : {bus.get(), viewer.get()})
@@ -68,11 +66,11 @@ struct BusHouse {
       return now + Duration::ms(200);
     });
   }
-  void ask(const Removal& removal) {
-    viewer->publish(Channel::of_house(Signal::kRemoval), removal);
-  }
+  void ask(const Removal& removal) { port->publish(Channel::of_house(Signal::kRemoval), removal); }
 
   std::unique_ptr<Bus> bus, viewer;
+  std::unique_ptr<HousePublisher> port;  // of the viewer
+  std::unique_ptr<HouseInputs> inputs;
   std::unique_ptr<Captures> captures;
   std::unique_ptr<LinkBus> link_bus;
   std::unique_ptr<Link> link;
@@ -80,7 +78,7 @@ struct BusHouse {
   std::string line;
 };
 
-class TwoHouses : public testing::Test {
+class RemovalHouses : public testing::Test {
  protected:
   void SetUp() override {
     auto made = Poller::create();
@@ -93,9 +91,10 @@ class TwoHouses : public testing::Test {
     auto opened = Server::open(Address::loopback(0), options, *poller_);
     ASSERT_TRUE(opened) << opened.error().what;
     server_ = std::move(*opened);
-    host_ = std::make_unique<BusHouse>("udpm://239.255.76.67:17667?ttl=0", host_key_,
+    const PublicKey server_key = options.identity.public_key();
+    host_ = std::make_unique<BusHouse>("udpm://239.255.76.67:17667?ttl=0", host_key_, server_key,
                                        server_->local_address(), *poller_);
-    bob_ = std::make_unique<BusHouse>("udpm://239.255.76.67:17668?ttl=0", guest_key_,
+    bob_ = std::make_unique<BusHouse>("udpm://239.255.76.67:17668?ttl=0", guest_key_, server_key,
                                       server_->local_address(), *poller_);
     ASSERT_TRUE(turn_until([&] {
       return host_->status.state == HouseLinkState::kConnected && host_->status.may_remove &&
@@ -109,8 +108,8 @@ class TwoHouses : public testing::Test {
     return is_so();
   }
 
-  KeyEntry host_key_ = key_of("hanna", KeyKind::kHost);
-  KeyEntry guest_key_ = key_of("bob", KeyKind::kGuest);
+  GuestKey host_key_ = key_of("hanna", KeyKind::kHost);
+  GuestKey guest_key_ = key_of("bob", KeyKind::kGuest);
   std::unique_ptr<Poller> poller_;
   std::unique_ptr<Server> server_;
   std::unique_ptr<BusHouse> host_, bob_;

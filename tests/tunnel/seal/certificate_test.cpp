@@ -32,14 +32,14 @@ class SealCertificate : public ::testing::Test {
   const TestFolder own{"papers"};
   const std::string folder = own.path();
   std::unique_ptr<Authority> ours;
-  const KeyEntry bob = key_of("bob");
+  const GuestKey bob = key_of("bob");
   SealedStreet street{{bob}};
 };
 
 TEST_F(SealCertificate, LetsInUnderItsCommonNameBesideKeys) {
   auto& a = house(of("alice"), "dance.example.org");
   auto& numbered = house(of("alice"), "192.0.2.1");
-  auto& b = street.add_house("bob", bob.key);
+  auto& b = street.add_house("bob", bob.own);
   street.run(Duration::ms(50));
   EXPECT_EQ(a.sealed, 1);
   EXPECT_EQ(numbered.sealed, 1);
@@ -75,6 +75,29 @@ TEST_F(SealCertificate, OfAnotherAuthorityLetsNobodyIn) {
   auto& a = house({folder + "/alice.pem", folder + "/alice.key", theirs.file}, "dance.example.org");
   street.run(Duration::ms(50));
   EXPECT_EQ(a.sealed, 0);
+}
+
+TEST_F(SealCertificate, RevokedOnesAndExpiredListsAreRefused) {
+  ours->sign("carol", "");
+  const auto sealed = [&](const std::string& name) {
+    auto& there = house(of(name), "dance.example.org");
+    street.run(Duration::ms(50));
+    return there.sealed;
+  };
+  street.certificates->authorities = ours->write_revocations("alice", 3600);
+  street.start_server();
+  EXPECT_EQ(sealed("alice"), 0);
+  EXPECT_EQ(sealed("carol"), 1);
+  // A link reads such a file too: a server's certificate can be revoked.
+  SealCertificates of_link = of("carol");
+  of_link.authorities = ours->write_revocations("server", 3600);
+  auto& wary = house(of_link, "dance.example.org");
+  street.run(Duration::ms(50));
+  EXPECT_EQ(wary.sealed, 0);
+  // A list that is out of date tells nothing of those who were revoked since.
+  street.certificates->authorities = ours->write_revocations("", -60);
+  street.start_server();
+  EXPECT_EQ(sealed("carol"), 0);
 }
 
 TEST_F(SealCertificate, WithoutAGuestsNameLetsNobodyIn) {

@@ -22,10 +22,10 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "make_seal_corpus FOLDER\n");
     return 2;
   }
-  const dance::KeyEntry alice = dance::key_of("alice");
+  const dance::GuestKey alice = dance::key_of("alice");
   dance::SealedStreet street({alice});
-  auto& house = street.add_house("alice", alice.key);
-  auto& wrong = street.add_house("alice", dance::PresharedKey::make());
+  auto& house = street.add_house("alice", alice.own);
+  auto& wrong = street.add_house("alice", dance::PrivateKey::make());
   street.run(dance::Duration::ms(20));
   street.say(house, "a datagram");
   house.client->close();

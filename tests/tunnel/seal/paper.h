@@ -39,6 +39,37 @@ class Authority {
     std::fclose(out);
   }
 
+  // Writes a file of this authority and its revocation list, which has the certificate of NAME.pem
+  // if a name is given. The list is out of date after this many seconds.
+  std::string write_revocations(const std::string& name, long valid_s) {
+    std::unique_ptr<X509_CRL, void (*)(X509_CRL*)> list(X509_CRL_new(), X509_CRL_free);
+    X509_CRL_set_version(list.get(), 1);
+    X509_CRL_set_issuer_name(list.get(), X509_get_subject_name(certificate_.get()));
+    const std::unique_ptr<ASN1_TIME, void (*)(ASN1_TIME*)> begin(X509_gmtime_adj(nullptr, -3600),
+                                                                 ASN1_TIME_free),
+        end(X509_gmtime_adj(nullptr, valid_s), ASN1_TIME_free);
+    X509_CRL_set1_lastUpdate(list.get(), begin.get());
+    X509_CRL_set1_nextUpdate(list.get(), end.get());
+    if (!name.empty()) {
+      std::FILE* in = std::fopen((folder_ + "/" + name + ".pem").c_str(), "r");
+      const Certificate revoked(in ? PEM_read_X509(in, nullptr, nullptr, nullptr) : nullptr,
+                                X509_free);
+      if (!revoked) std::abort();
+      std::fclose(in);
+      X509_REVOKED* entry = X509_REVOKED_new();
+      X509_REVOKED_set_serialNumber(entry, X509_get_serialNumber(revoked.get()));
+      X509_REVOKED_set_revocationDate(entry, begin.get());
+      if (X509_CRL_add0_revoked(list.get(), entry) != 1) std::abort();
+    }
+    const std::string path = folder_ + "/revocations.pem";
+    std::FILE* out = std::fopen(path.c_str(), "w");
+    if (X509_CRL_sign(list.get(), key_.get(), EVP_sha256()) == 0 || !out ||
+        PEM_write_X509(out, certificate_.get()) != 1 || PEM_write_X509_CRL(out, list.get()) != 1)
+      std::abort();
+    std::fclose(out);
+    return path;
+  }
+
   std::string file;
 
  private:

@@ -4,6 +4,7 @@
 // The input is a list of datagrams: a byte that says where to and where from, a length, bytes.
 // Bytes that stand where an id belongs are replaced by one that means something, as nobody guesses
 // those.
+#include "tests/fuzz_target.h"
 #include "tests/tunnel/seal/sealed_street.h"
 
 namespace {
@@ -23,10 +24,10 @@ struct Scene {
     street.run(dance::Duration::ms(10));
     half_id = dance::seal::parse(street.sent.back().bytes)->id;
   }
-  const dance::KeyEntry alice = dance::key_of("alice");
+  const dance::GuestKey alice = dance::key_of("alice");
   dance::SealedStreet street{{alice}};
-  dance::SealedStreet::House& house = street.add_house("alice", alice.key);
-  dance::SealedStreet::House& half = street.add_house("alice", alice.key);
+  dance::SealedStreet::House& house = street.add_house("alice", alice.own);
+  dance::SealedStreet::House& half = street.add_house("alice", alice.own);
   std::uint64_t half_id = 0;
 };
 
@@ -48,7 +49,7 @@ void play(Scene& scene, std::uint8_t how, std::vector<std::uint8_t> bytes) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(seal_datagram) {
   Scene scene;
   std::size_t at = 0;
   while (at + 2 < size) {

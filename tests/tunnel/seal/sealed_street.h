@@ -15,18 +15,11 @@
 #include <vector>
 
 #include "core/base/random.h"
+#include "tests/tunnel/seal/guest_key.h"
 #include "tunnel/seal/seal_client.h"
 #include "tunnel/seal/seal_server.h"
 
 namespace dance {
-
-inline KeyEntry key_of(std::string_view name, KeyKind kind = KeyKind::kGuest) {
-  KeyEntry entry;
-  entry.name = *GuestId::parse(name);
-  entry.kind = kind;
-  entry.key = PresharedKey::make();
-  return entry;
-}
 
 class SealedStreet {
  public:
@@ -77,14 +70,22 @@ class SealedStreet {
     };
     handlers.on_end = [this](std::uint64_t peer) { ended.push_back(peer); };
     auto made = SealServer::make(
-        limits, keys, certificates, [this] { return random.next_u64(); }, std::move(handlers),
-        server_sink);
+        limits, identity, keys, certificates, [this] { return random.next_u64(); },
+        std::move(handlers), server_sink);
     if (!made) std::abort();
     server = std::move(*made);
   }
 
-  House& add_house(const std::string& name, const PresharedKey& key) {
-    auto context = SealContext::for_link(name, key);
+  // Adds a house that authenticates with its own key and, if given, with a grant's.
+  House& add_house(const std::string& name, const PrivateKey& house,
+                   const std::optional<PrivateKey>& grant = std::nullopt) {
+    const auto key = house_session_key(house, grant, identity.public_key());
+    if (!key) std::abort();
+    return add_house(identity_text(name, house.public_key()), *key, identity.public_key());
+  }
+  House& add_house(const std::string& identity_of_house, const PresharedKey& key,
+                   const PublicKey& server_key) {
+    auto context = SealContext::for_link(identity_of_house, key, server_key);
     if (!context) std::abort();
     return add_house(std::move(*context));
   }
@@ -150,6 +151,7 @@ class SealedStreet {
   }
 
   SealLimits limits;
+  PrivateKey identity = PrivateKey::make();
   Random random{7};
   MonoTime now = MonoTime::from_us(1'000'000'000);
   std::optional<SealCertificates> certificates;

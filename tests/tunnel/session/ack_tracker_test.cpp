@@ -6,7 +6,7 @@
 namespace dance {
 namespace {
 
-constexpr MonoTime kNow = MonoTime::from_us(5'000'000);
+constexpr MonoTime kSentTime = MonoTime::from_us(5'000'000);
 
 AckTracker::Slots slots_of(std::initializer_list<std::uint8_t> slots) {
   AckTracker::Slots list;
@@ -19,7 +19,7 @@ TEST(AckTracker, TellsNothingBeforeSomethingCame) {
   wire::RecordsHeader header;
   tracker.fill(header);
   EXPECT_FALSE(header.has_acks);
-  EXPECT_FALSE(tracker.is_ripe(kNow, false));
+  EXPECT_FALSE(tracker.is_ripe(kSentTime, false));
 }
 
 TEST(AckTracker, ExceptsTheGuestsWhosePosesDidNotDecode) {
@@ -52,21 +52,21 @@ TEST(AckTracker, WhereMoreFailThanCanBeToldTheOthersAreAcknowledgedStill) {
 
 TEST(AckTracker, IsDueWhenItWasPromisedOrAtOnceAfterSixteenDatagrams) {
   AckTracker tracker;
-  tracker.owe(kNow + Duration::ms(20), false, kNow);
-  tracker.owe(kNow + Duration::ms(30), false, kNow);
-  EXPECT_EQ(tracker.due(), kNow + Duration::ms(20)) << "the first promise counts";
-  for (int i = 2; i < 15; ++i) tracker.owe(kNow + Duration::ms(30), false, kNow);
-  EXPECT_EQ(tracker.due(), kNow + Duration::ms(20));
-  tracker.owe(kNow + Duration::ms(30), false, kNow);
-  EXPECT_EQ(tracker.due(), kNow);
+  tracker.owe(kSentTime + Duration::ms(20), false, kSentTime);
+  tracker.owe(kSentTime + Duration::ms(30), false, kSentTime);
+  EXPECT_EQ(tracker.due(), kSentTime + Duration::ms(20)) << "the first promise counts";
+  for (int i = 2; i < 15; ++i) tracker.owe(kSentTime + Duration::ms(30), false, kSentTime);
+  EXPECT_EQ(tracker.due(), kSentTime + Duration::ms(20));
+  tracker.owe(kSentTime + Duration::ms(30), false, kSentTime);
+  EXPECT_EQ(tracker.due(), kSentTime);
 }
 
 TEST(AckTracker, OnACleanPathItIsDueLaterButGoesAlongOnceMuchHasCome) {
   AckTracker tracker;
   tracker.note(1);
   wire::RecordsHeader header;
-  tracker.tell(header, kNow);
-  const MonoTime soon = kNow + Duration::ms(10), promised = kNow + Duration::ms(40);
+  tracker.tell(header, kSentTime);
+  const MonoTime soon = kSentTime + Duration::ms(10), promised = kSentTime + Duration::ms(40);
   for (int i = 0; i < 15; ++i) tracker.owe(promised, true, soon);
   EXPECT_FALSE(tracker.is_ripe(soon, true));
   tracker.owe(promised, true, soon);
@@ -80,33 +80,33 @@ TEST(AckTracker, GoesAlongAtOnceOnAPathThatLosesAndWaitsOnACleanOne) {
   AckTracker tracker;
   tracker.note(1);
   wire::RecordsHeader header;
-  tracker.tell(header, kNow);
+  tracker.tell(header, kSentTime);
   EXPECT_FALSE(tracker.owes());
-  tracker.owe(kNow + Duration::ms(40), false, kNow);
-  const MonoTime soon = kNow + Duration::ms(10);
+  tracker.owe(kSentTime + Duration::ms(40), false, kSentTime);
+  const MonoTime soon = kSentTime + Duration::ms(10);
   EXPECT_TRUE(tracker.is_ripe(soon, false));
   EXPECT_FALSE(tracker.is_ripe(soon, true));
-  EXPECT_TRUE(tracker.is_ripe(kNow + AckTracker::kCleanGap, true));
+  EXPECT_TRUE(tracker.is_ripe(kSentTime + AckTracker::kCleanGap, true));
 }
 
 TEST(AckTracker, AnIntraFrameIsAskedForOnceAndAtOnce) {
   AckTracker tracker;
-  EXPECT_TRUE(tracker.want_intra_frame(9, kNow));
-  EXPECT_TRUE(tracker.is_ripe(kNow, true));
+  EXPECT_TRUE(tracker.want_intra_frame(9, kSentTime));
+  EXPECT_TRUE(tracker.is_ripe(kSentTime, true));
   wire::RecordsHeader header;
-  tracker.tell(header, kNow);
+  tracker.tell(header, kSentTime);
   ASSERT_EQ(header.wants.size(), 1u);
   EXPECT_EQ(header.wants[0], 9);
   wire::RecordsHeader next;
-  tracker.tell(next, kNow);
+  tracker.tell(next, kSentTime);
   EXPECT_TRUE(next.wants.empty());
 }
 
 TEST(AckTracker, RefusesMoreRequestsThanADatagramHolds) {
   AckTracker tracker;
   for (std::uint8_t slot = 0; slot < wire::kMaxWants; ++slot)
-    EXPECT_TRUE(tracker.want_intra_frame(slot, kNow));
-  EXPECT_FALSE(tracker.want_intra_frame(wire::kMaxWants, kNow));
+    EXPECT_TRUE(tracker.want_intra_frame(slot, kSentTime));
+  EXPECT_FALSE(tracker.want_intra_frame(wire::kMaxWants, kSentTime));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 namespace dance {
 namespace {
 
-TEST(Repetition, BeginsAboveHalfAPercentAndEndsWhenNearlyNothingIsLost) {
+TEST(RepetitionStrategy, BeginsAboveHalfAPercentAndEndsWhenNearlyNothingIsLost) {
   Repetition repetition;
   LossMeter way;
   for (int i = 0; i < 2000; ++i) way.add(false);

@@ -2,13 +2,17 @@
 #include "viewer/avatar/avatar_library.h"
 
 #include <gtest/gtest.h>
+#include <sys/prctl.h>
 
 #include <atomic>
+#include <fstream>
 #include <future>
+#include <iterator>
 #include <thread>
 
 #include "formats/avatar/mannequin_model.h"
 #include "tests/allocation_guard.h"
+#include "viewer/avatar/avatar_loader.h"
 
 namespace dance {
 namespace {
@@ -20,7 +24,7 @@ SceneGuest guest_called(const char* name, float height_m = 1.72f) {
   return guest;
 }
 
-SceneState scene_of(std::vector<SceneGuest> guests, double at_s = 100.0) {
+SceneState scene_at(std::vector<SceneGuest> guests, double at_s = 100.0) {
   SceneState scene;
   scene.time = MonoTime::from_us(0) + Duration::seconds(at_s);
   scene.guests = std::move(guests);
@@ -57,7 +61,7 @@ TEST(AvatarLibrary, GivesEveryGuestAFigureInTheFirstPicture) {
     return Result<AvatarModel>(model_called(path));
   };
   AvatarLibrary library(std::move(options));
-  SceneState scene = scene_of({guest_called("alice"), guest_called("bob", 1.9f)});
+  SceneState scene = scene_at({guest_called("alice"), guest_called("bob", 1.9f)});
   library.dress(scene);  // while the loading thread is held
   ASSERT_TRUE(scene.guests[0].avatar);
   EXPECT_EQ(scene.guests[0].avatar, scene.guests[1].avatar);
@@ -70,7 +74,7 @@ TEST(AvatarLibrary, GivesEveryGuestAFigureInTheFirstPicture) {
 
 TEST(AvatarLibrary, MakesMannequinsInTheDancersProportionsAndColours) {
   AvatarLibrary library;
-  SceneState scene = scene_of({guest_called("alice", 1.6f), guest_called("bob", 1.9f)});
+  SceneState scene = scene_at({guest_called("alice", 1.6f), guest_called("bob", 1.9f)});
   scene.guests[1].wish.name = *GuestId::parse("dress-bun");
   scene.guests[1].wish.colour_rgb = {0.0f, 0.5f, 0.0f};
   scene.guests[1].wish.height_scale = 1.5f;
@@ -91,7 +95,7 @@ TEST(AvatarLibrary, MakesMannequinsInTheDancersProportionsAndColours) {
 
 TEST(AvatarLibrary, KeepsAMannequinWhileTheMeasurementOnlyTrembles) {
   AvatarLibrary library;
-  SceneState scene = scene_of({guest_called("alice")});
+  SceneState scene = scene_at({guest_called("alice")});
   library.wait_and_dress(scene);
   const auto before = scene.guests[0].avatar;
   for (const float by_m : {0.002f, -0.002f, 0.003f}) {
@@ -110,7 +114,7 @@ TEST(AvatarLibrary, KeepsAMannequinWhileTheMeasurementOnlyTrembles) {
 
 TEST(AvatarLibrary, MakesFingersWhenTheyAreSeenAndKeepsThem) {
   AvatarLibrary library;
-  SceneState scene = scene_of({guest_called("alice")});
+  SceneState scene = scene_at({guest_called("alice")});
   library.wait_and_dress(scene);
   const auto mittens = scene.guests[0].avatar;
   scene.guests[0].hands = Hands();
@@ -124,7 +128,7 @@ TEST(AvatarLibrary, MakesFingersWhenTheyAreSeenAndKeepsThem) {
 
 TEST(AvatarLibrary, GivesARawTwinTheFigureOfItsDancer) {
   AvatarLibrary library;
-  SceneState scene = scene_of({guest_called("alice"), guest_called("alice-raw")});
+  SceneState scene = scene_at({guest_called("alice"), guest_called("alice-raw")});
   scene.guests[0].wish.height_scale = 1.2f;
   library.wait_and_dress(scene);
   ASSERT_TRUE(scene.guests[1].avatar);
@@ -140,7 +144,7 @@ TEST(AvatarLibrary, SharesOneModelAmongAllWhoChoseAFile) {
     return std::optional<Result<AvatarModel>>(model_called("shared"));
   };
   AvatarLibrary library(std::move(options));
-  SceneState scene = scene_of({guest_called("alice"), guest_called("bob")});
+  SceneState scene = scene_at({guest_called("alice"), guest_called("bob")});
   for (SceneGuest& guest : scene.guests) guest.wish.file = hash_of(1);
   library.wait_and_dress(scene);
   EXPECT_EQ(scene.guests[0].avatar, scene.guests[1].avatar);
@@ -157,7 +161,7 @@ TEST(AvatarLibrary, ShowsAFileWhenItHasArrivedAndAMannequinUntilThen) {
     return model_called("arrived");
   };
   AvatarLibrary library(std::move(options));
-  SceneState scene = scene_of({guest_called("bob")});
+  SceneState scene = scene_at({guest_called("bob")});
   scene.guests[0].wish.file = hash_of(7);
   library.wait_and_dress(scene);
   EXPECT_EQ(scene.guests[0].avatar->name, "mannequin");
@@ -182,7 +186,7 @@ TEST(AvatarLibrary, TellsForAWhileWhatCannotBeRead) {
     return Result<AvatarModel>(fail(path + " has no bones"));
   };
   AvatarLibrary library(std::move(options));
-  SceneState scene = scene_of({guest_called("alice"), guest_called("bob")});
+  SceneState scene = scene_at({guest_called("alice"), guest_called("bob")});
   library.wait_and_dress(scene);
   EXPECT_EQ(scene.guests[1].avatar->name, "mannequin");
   EXPECT_EQ(scene.notes, std::vector<std::string>{"bob's avatar cannot be read: broken.glb has no "
@@ -203,7 +207,7 @@ TEST(AvatarLibrary, TellsOfANameThatIsNotAmongTheAvatarsHere) {
     return Result<AvatarModel>(model_called(path));
   };
   AvatarLibrary library(std::move(options));
-  SceneState scene = scene_of({guest_called("alice"), guest_called("bob")});
+  SceneState scene = scene_at({guest_called("alice"), guest_called("bob")});
   scene.guests[0].wish.name = *GuestId::parse("mara");
   scene.guests[1].wish.name = *GuestId::parse("nobody");
   library.wait_and_dress(scene);
@@ -226,7 +230,7 @@ TEST(AvatarLibrary, IsBoundedInNumberAndBytes) {
   };
   options.most_bytes = std::size_t{32} << 20;
   AvatarLibrary library(std::move(options));
-  SceneState scene = scene_of({guest_called("alice")});
+  SceneState scene = scene_at({guest_called("alice")});
   for (std::uint8_t i = 1; i < 20; ++i) {
     scene.guests[0].wish.file = hash_of(i);
     scene.time += Duration::ms(20);
@@ -263,7 +267,7 @@ AvatarLibraryOptions with_room_for_one(std::atomic<int>& reads) {
 TEST(AvatarLibrary, WhatHadNoRoomIsReadAgainWhenThereIsSome) {
   std::atomic<int> reads{0};
   AvatarLibrary library(with_room_for_one(reads));
-  SceneState scene = scene_of({guest_called("alice"), guest_called("bob")});
+  SceneState scene = scene_at({guest_called("alice"), guest_called("bob")});
   scene.guests[0].wish.file = hash_of(1);
   scene.guests[1].wish.file = hash_of(2);
   library.wait_and_dress(scene);
@@ -296,7 +300,7 @@ TEST(AvatarLibrary, OneModelTakesNoLargePartOfTheCache) {
   AvatarLibraryOptions options = with_room_for_one(reads);
   options.most_model_bytes = std::size_t{8} << 20;
   AvatarLibrary library(std::move(options));
-  SceneState scene = scene_of({guest_called("alice")});
+  SceneState scene = scene_at({guest_called("alice")});
   scene.guests[0].wish.file = hash_of(1);
   for (int i = 0; i < 3; ++i) {
     library.wait_and_dress(scene);
@@ -328,7 +332,7 @@ TEST(AvatarLibrary, ItsEndStopsWhatIsBeingRead) {
     options.overrides = {{*GuestId::parse("alice"), "slow.vrm"},
                          {*GuestId::parse("bob"), "other.vrm"}};
     AvatarLibrary library(std::move(options));
-    SceneState scene = scene_of({guest_called("alice"), guest_called("bob")});
+    SceneState scene = scene_at({guest_called("alice"), guest_called("bob")});
     library.dress(scene);
     has_begun.get_future().wait();
   }
@@ -338,12 +342,30 @@ TEST(AvatarLibrary, ItsEndStopsWhatIsBeingRead) {
 
 TEST(AvatarLibrary, AllocatesNothingWhileNothingChanges) {
   AvatarLibrary library;
-  SceneState scene = scene_of({guest_called("alice"), guest_called("bob")});
+  SceneState scene = scene_at({guest_called("alice"), guest_called("bob")});
   library.wait_and_dress(scene);
   undress(scene);
   const AllocationGuard guard;
   library.dress(scene);
   EXPECT_EQ(guard.allocations(), 0u);
+}
+
+// Files of remote guests are read there.
+TEST(AvatarLoader, ReadsOnAConfinedThreadWhereTheKernelHasSeccomp) {
+#if !defined(DANCE_HAVE_SECCOMP) || defined(DANCE_SANITIZED)
+  GTEST_SKIP() << "this build has no seccomp";
+#endif
+  if (prctl(PR_GET_SECCOMP) < 0) GTEST_SKIP() << "this kernel has no seccomp";
+  AvatarLoader loader;
+  std::string status;
+  const auto job = loader.start([&](const AvatarStop&) -> AvatarJob::Made {
+    std::ifstream file("/proc/thread-self/status");
+    status.assign(std::istreambuf_iterator<char>(file), {});
+    return std::nullopt;
+  });
+  loader.wait();
+  EXPECT_TRUE(job->is_done());
+  EXPECT_NE(status.find("Seccomp:\t2"), std::string::npos) << status;
 }
 
 }  // namespace

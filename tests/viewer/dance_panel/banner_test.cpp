@@ -10,7 +10,7 @@ namespace {
 
 const Texts kBannerTexts(Language::kEnglish);
 constexpr MonoTime kBannerBegin = MonoTime::from_us(60'000'000);
-GuestId named(const char* name) { return *GuestId::parse(name); }
+GuestId guest_named(const char* name) { return *GuestId::parse(name); }
 
 HouseLink link_with(HouseLinkState state, HouseLinkTrouble trouble = HouseLinkTrouble::kNone) {
   HouseLink link;
@@ -25,7 +25,7 @@ BannerFacts all_wrong() {
   BannerFacts facts;
   facts.link = link_with(HouseLinkState::kLapsed);
   facts.link_down = Duration::s(9);
-  facts.still = named("alice");
+  facts.still = guest_named("alice");
   facts.still_for = Duration::s(6);
   facts.recording_trouble = "No space left on device";
   facts.slow_for = Duration::s(9);
@@ -57,9 +57,9 @@ TEST(Banner, TheMostUrgentIsShownAndThenTheNext) {
     ASSERT_LE(shown.size(), kBannerKinds);
   }
   EXPECT_EQ(shown, (std::vector{BannerKind::kServerSilent, BannerKind::kNoPoses,
-                                BannerKind::kRecordingFailed, BannerKind::kSlowDrawing,
-                                BannerKind::kNoMicrophone, BannerKind::kMicrophoneSilent,
-                                BannerKind::kSpeaksMuted, BannerKind::kClockJumped}));
+                                BannerKind::kRecordingFailed, BannerKind::kNoMicrophone,
+                                BannerKind::kMicrophoneSilent, BannerKind::kSpeaksMuted,
+                                BannerKind::kClockJumped}));
 }
 
 TEST(Banner, OneThatWasClosedComesBackWithItsCause) {
@@ -87,8 +87,10 @@ TEST(Banner, TellsWhyTheServerHasNoSessionForThisHouse) {
   EXPECT_EQ(first(State::kConnecting, Trouble::kWrongKey), BannerKind::kKeyRefused);
   EXPECT_EQ(first(State::kLapsed, Trouble::kWrongKey), BannerKind::kKeyRefused);
   EXPECT_EQ(first(State::kConnecting, Trouble::kNotTrusted), BannerKind::kNotTrusted);
+  EXPECT_EQ(first(State::kConnecting, Trouble::kServerKeyChanged), BannerKind::kServerKeyChanged);
   EXPECT_EQ(first(State::kConnecting, Trouble::kRemoved), BannerKind::kRemoved);
   EXPECT_EQ(first(State::kConnecting, Trouble::kRefused), BannerKind::kRefused);
+  EXPECT_EQ(first(State::kLapsed, Trouble::kClosed), BannerKind::kRoomClosed);
   EXPECT_EQ(first(State::kLapsed, Trouble::kNone), BannerKind::kServerSilent);
   EXPECT_EQ(first(State::kConnecting, Trouble::kNoAnswer), BannerKind::kServerSilent);
   EXPECT_EQ(first(State::kConnecting, Trouble::kInterrupted), BannerKind::kServerSilent);
@@ -103,7 +105,7 @@ TEST(Banner, TellsWhyTheServerHasNoSessionForThisHouse) {
 TEST(Banner, HasWordsACureAndAButtonWhereOnePressMendsIt) {
   BannerFacts facts = all_wrong();
   facts.link->asks_again = facts.link->time + Duration::s(541);
-  facts.link->refused = named("dora");
+  facts.link->refused = guest_named("dora");
   for (const LanguageName& language : kLanguages)
     for (std::size_t i = 0; i < kBannerKinds; ++i) {
       const Banner banner = banner_of(static_cast<BannerKind>(i), facts, Texts(language.language));
@@ -118,14 +120,20 @@ TEST(Banner, HasWordsACureAndAButtonWhereOnePressMendsIt) {
   EXPECT_EQ(banner_of(BannerKind::kRemoved, facts, kBannerTexts).cure,
             "This house may come back in 10 min. Ask the host.");
   EXPECT_EQ(banner_of(BannerKind::kRemoved, facts, kBannerTexts).action, BannerAction::kLeave);
+  EXPECT_EQ(banner_of(BannerKind::kRoomClosed, facts, kBannerTexts).what,
+            "The room has been closed.");
+  facts.host = guest_named("hanna");
+  EXPECT_EQ(banner_of(BannerKind::kRoomClosed, facts, kBannerTexts).what,
+            "hanna has closed the room.");
+  const ShownNames::Named hanna{facts.host, *parse_shown_name("Hanna M\u00fcller")};
+  facts.names = ShownNames({&hanna, 1}, {});
+  EXPECT_EQ(banner_of(BannerKind::kRoomClosed, facts, Texts(Language::kGerman)).what,
+            "Hanna M\u00fcller hat den Raum geschlossen.");
   EXPECT_EQ(banner_of(BannerKind::kRefused, facts, kBannerTexts).what,
             "The server does not let dora in.");
+  EXPECT_EQ(banner_of(BannerKind::kNoSound, facts, kBannerTexts).what,
+            "Your microphone cannot be reached: this computer's sound does not answer.");
   EXPECT_EQ(banner_of(BannerKind::kSpeaksMuted, facts, kBannerTexts).action, BannerAction::kUnmute);
-  EXPECT_EQ(banner_of(BannerKind::kSlowDrawing, facts, kBannerTexts).action,
-            BannerAction::kDrawPlainly);
-  facts.draws_plainly = true;
-  EXPECT_EQ(banner_of(BannerKind::kSlowDrawing, facts, kBannerTexts).action, BannerAction::kNone)
-      << "it is done already: another cure";
 }
 
 // The signals, as they come from bus and window.
@@ -133,11 +141,11 @@ struct Watched {
   void run(Duration duration) {
     for (const MonoTime end = now + duration; now < end; now += Duration::ms(100)) {
       if (link) board.on_link(*link, now);
-      if (level) board.on_level(named("alice"), *level, now);
+      if (level) board.on_level(guest_named("alice"), *level, now);
       if (moves && (now - kBannerBegin).count_ms() % 1000 == 0) ++own.received;
       own.alive = moves;
       if ((now - kBannerBegin).count_ms() % 1000 == 0 && (moves || says_still))
-        board.on_status(named("alice"), own, now);
+        board.on_status(guest_named("alice"), own, now);
       records.take(board, now);
       watch.update(records, scene, drawing, (now - MonoTime()) + wall_ahead, now);
     }
@@ -190,7 +198,7 @@ TEST(BannerWatch, AServerThatFallsSilentAndComesBack) {
 
 TEST(BannerWatch, AMicrophoneThatGivesNothing) {
   Watched house;
-  house.scene.voices.push_back({named("alice")});
+  house.scene.voices.push_back({guest_named("alice")});
   house.level = VoiceLevel{kBannerBegin, 1, -127, -127};
   house.run(Duration::s(15));
   EXPECT_EQ(house.shown(), std::nullopt);
@@ -206,11 +214,14 @@ TEST(BannerWatch, AMicrophoneThatGivesNothing) {
   house.scene.voices[0].has_microphone = false;
   house.run(Duration::ms(300));
   EXPECT_EQ(house.shown(), BannerKind::kNoMicrophone);
+  house.scene.voices[0].has_loudspeaker = false;
+  house.run(Duration::ms(300));
+  EXPECT_EQ(house.shown(), BannerKind::kNoSound) << "no sound server answers";
 }
 
 TEST(BannerWatch, SomebodyWhoSpeaksAndIsMuted) {
   Watched house;
-  house.scene.voices.push_back({named("alice")});
+  house.scene.voices.push_back({guest_named("alice")});
   house.scene.voices[0].is_muted = true;
   house.scene.voices[0].is_heard = false;
   house.level = VoiceLevel{kBannerBegin, 1, -30, -60};
@@ -239,16 +250,35 @@ TEST(BannerWatch, AClockThatJumpsAndOneThatIsCorrected) {
   EXPECT_EQ(house.shown(), std::nullopt) << "it is over";
 }
 
-TEST(BannerWatch, SlowDrawingByTheProcessorOnly) {
+TEST(BannerWatch, CountsSlowDrawingOnlyWithoutAGraphicsCardAndAtTheSmallestScale) {
   Watched house;
-  house.drawing = {true, false, 12.0f};
-  house.run(Duration::s(4));
-  EXPECT_EQ(house.shown(), std::nullopt) << "it has just begun";
-  house.run(Duration::s(2));
-  EXPECT_EQ(house.shown(), BannerKind::kSlowDrawing);
+  house.drawing = {true, false, false, 12.0f};
+  house.run(Duration::s(9));
+  EXPECT_EQ(house.watch.facts().slow_for, Duration()) << "fewer pixels may help";
+  house.drawing.is_at_smallest_scale = true;
+  house.run(Duration::s(6));
+  EXPECT_GT(house.watch.facts().slow_for, Duration::s(5));
   house.drawing.is_software = false;
   house.run(Duration::s(1));
-  EXPECT_EQ(house.shown(), std::nullopt);
+  EXPECT_EQ(house.watch.facts().slow_for, Duration());
+}
+
+TEST(SlowNote, IsShownOnceForFifteenSecondsOrUntilItIsClosed) {
+  SlowNote note;
+  bool was_shown = false;
+  MonoTime now = kBannerBegin;
+  EXPECT_FALSE(note.is_shown(Duration::s(3), was_shown, now)) << "it has just begun";
+  EXPECT_TRUE(note.is_shown(Duration::s(6), was_shown, now));
+  EXPECT_TRUE(was_shown);
+  EXPECT_TRUE(note.is_shown(Duration(), was_shown, now + Duration::s(2))) << "time to read it";
+  EXPECT_FALSE(note.is_shown(Duration::s(60), was_shown, now + SlowNote::kShown));
+  SlowNote closed;
+  was_shown = false;
+  EXPECT_TRUE(closed.is_shown(Duration::s(6), was_shown, now));
+  closed.close();
+  EXPECT_FALSE(closed.is_shown(Duration::s(7), was_shown, now));
+  SlowNote of_the_next_dance;
+  EXPECT_FALSE(of_the_next_dance.is_shown(Duration::s(60), was_shown, now));
 }
 
 }  // namespace

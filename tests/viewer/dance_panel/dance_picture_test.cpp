@@ -5,7 +5,13 @@
 namespace dance {
 namespace {
 
-class DancePictureTest : public DanceStage {};
+class DancePictureTest : public DanceStage {
+ protected:
+  // A captured face at rest, which neither blinks nor looks around.
+  void rest_faces() {
+    for (SceneGuest& guest : scene_.guests) guest.face.emplace().presence = kFaceSeen | kGazeSeen;
+  }
+};
 
 std::vector<Line> all_sorts() {
   return {{"alice", false},
@@ -17,6 +23,7 @@ std::vector<Line> all_sorts() {
 
 TEST_F(DancePictureTest, EscOpensAndClosesItAndTheMiddleStaysFree) {
   begin(Language::kEnglish, kWidth_px, kHeight_px, 1.0f);
+  rest_faces();
   const Picture closed = draw();
   EXPECT_TRUE(press(GLFW_KEY_ESCAPE));
   EXPECT_TRUE(panel_->is_open());
@@ -213,8 +220,8 @@ TEST_F(DancePictureTest, ThirtyGuestsWithLongNamesScrollAndTheKeyboardReachesThe
     panel_->open(true);
     keep("dance-thirty-" + std::to_string(static_cast<int>(scale)));
     panel_->choose(guest_called("mmmmwwww-dancer-from-129"));
-    press(GLFW_KEY_UP);  // from the end: leave, record, and the last guest's controls
-    for (int i = 0; i < 2; ++i) press(GLFW_KEY_UP);
+    press(GLFW_KEY_UP);  // from the end: leave, picture, record, and the last guest's controls
+    for (int i = 0; i < 3; ++i) press(GLFW_KEY_UP);
     for (int i = 0; i < 4; ++i) turn();
     keep("dance-thirty-last-" + std::to_string(static_cast<int>(scale)));
     told_.clear();
@@ -225,6 +232,63 @@ TEST_F(DancePictureTest, ThirtyGuestsWithLongNamesScrollAndTheKeyboardReachesThe
     ASSERT_FALSE(told_.empty());
     EXPECT_EQ(told_.back(), "alice: volume mmmmwwww-dancer-from-129=1.10");
   }
+}
+
+TEST_F(DancePictureTest, ShowsArrivalsAboveTheDancersForFiveSeconds) {
+  begin(Language::kSpanish, kWidth_px, kHeight_px, 1.0f);
+  rest_faces();
+  for (int i = 0; i < 5 * 62; ++i) turn();
+  const Picture before = draw();
+  lines_.push_back({"carla"});
+  for (int i = 0; i < 80; ++i) turn();
+  EXPECT_GT(changed(before, keep("dance-arrival"), 400, 880), 2000);
+  for (int i = 0; i < 6 * 62; ++i) turn();
+  EXPECT_LT(changed(before, draw(), 400, 880), 500) << "for some seconds";
+}
+
+TEST_F(DancePictureTest, ShowsWhichOtherHousesRecord) {
+  begin(Language::kEnglish, kWidth_px, kHeight_px, 1.0f);
+  const ShownNames::Named bob{guest_called("bob"), *parse_shown_name("Bob Dyl\u00e1n")};
+  scene_.names = ShownNames({&bob, 1}, {});
+  const Picture before = keep("recorded-by-nobody");
+  scene_.recorders = {guest_called("bob")};
+  scene_.guests[1].is_recording = true;
+  const Picture recorded = keep("recorded-by-bob");
+  EXPECT_GT(changed(before, recorded, kWidth_px / 2 - 80, kWidth_px / 2 + 80), 300);
+}
+
+TEST_F(DancePictureTest, AsksAHostBeforeTheRoomEnds) {
+  begin(Language::kEnglish, kWidth_px, kHeight_px, 1.0f);
+  wishes_.closing = Closing::kAsked;
+  draw();
+  keep("dance-closing");
+  EXPECT_EQ(wishes_.closing, Closing::kAsked);
+  press(GLFW_KEY_ESCAPE);
+  EXPECT_EQ(wishes_.closing, Closing::kNo);
+  EXPECT_FALSE(panel_->is_open()) << "Esc was the answer";
+  wishes_.closing = Closing::kAsked;
+  const float x = 0.5f * kWidth_px;
+  for (float y = 200.0f; y < 420.0f && wishes_.closing == Closing::kAsked; y += 11.0f)
+    click(x - 190.0f, y);
+  EXPECT_EQ(wishes_.closing, Closing::kYes);
+}
+
+TEST_F(DancePictureTest, SlowDrawingIsOneLineAtTheBottom) {
+  begin(Language::kGerman, kWidth_px, kHeight_px, 1.0f);
+  drawing_ = {true, true, true, 9.0f};
+  scene_.guests.clear();  // nothing else moves
+  scene_.music.reset();
+  const Picture before = draw();
+  for (int i = 0; i < 6 * 62; ++i) turn();
+  EXPECT_TRUE(wishes_.knows_slow_drawing);
+  const Picture picture = keep("dance-slow");
+  int above = 0;
+  for (int y = 0; y < kHeight_px * 3 / 4; ++y)
+    for (int x = 0; x < kWidth_px; ++x) above += before.at(x, y) != picture.at(x, y) ? 1 : 0;
+  EXPECT_EQ(above, 0) << "names and faces stay free";
+  EXPECT_GT(changed(before, picture, 300, 980), 2000);
+  for (int i = 0; i < 16 * 62; ++i) turn();
+  EXPECT_LT(changed(before, draw(), 300, 980), 500);
 }
 
 TEST_F(DancePictureTest, CountsInAboveTheDancers) {

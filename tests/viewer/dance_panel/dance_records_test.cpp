@@ -114,6 +114,51 @@ TEST(DanceRecords, LossIsTheMeanOfSomeSeconds) {
   EXPECT_GT(verdict.value, 4.0f) << "half a second of five";
 }
 
+// Six seconds of a guest whose poses this machine shows 400 ms after they arrived.
+void draw_slowly(Room& room, const char* name, bool is_remote, double more_network_ms = 0.0) {
+  const Duration drawing = Duration::ms(400);
+  std::uint32_t sequence = 0;
+  for (int second = 0; second < 6; ++second) {
+    for (int i = 0; i < 60; ++i, ++sequence) {
+      const MonoTime captured = room.now + Duration::ms(16) * i;
+      const Pose pose = is_remote ? arrived_at_house(captured, sequence, more_network_ms)
+                                  : dance_at(captured, sequence);
+      const double path_ms = kPublished_ms + kSent_ms + kServer_ms + kReceived_ms + 1.0;
+      const MonoTime heard =
+          captured + Duration::seconds(is_remote ? 1e-3 * (path_ms + more_network_ms) : 1e-3);
+      room.instruments.on_pose(is_remote ? Where::kGuest : Where::kCapture, guest_called(name),
+                               pose, heard);
+      room.instruments.on_shown(guest_called(name), shown_at(pose, heard, heard + drawing));
+    }
+    room.now += Duration::ms(960);
+    room.instruments.end_seconds(room.now, [](const GuestId&, const GuestStats&) {});
+    room.figures.take(room.instruments);
+    room.status(name, is_remote, true, sequence);
+    if (is_remote) room.board.on_traffic(guest_called(name), room.now);
+    room.look();
+  }
+}
+
+TEST(DanceRecords, SlowDrawingDoesNotCountAsDelay) {
+  Room room;
+  draw_slowly(room, "bob", true);
+  EXPECT_EQ(room.records.find(guest_called("bob"))->quality.shown().level, QualityLevel::kGood);
+}
+
+TEST(DanceRecords, DelayIsThatOfNetworkAndServerOnly) {
+  Room room;
+  draw_slowly(room, "bob", true, 200.0);
+  const QualityVerdict& verdict = room.records.find(guest_called("bob"))->quality.shown();
+  EXPECT_EQ(verdict.reason, QualityReason::kLate);
+  EXPECT_NEAR(verdict.value, kServer_ms + kReceived_ms + 200.0, 2.0);
+}
+
+TEST(DanceRecords, DancersOfThisHouseHaveNoNetworkDelay) {
+  Room room;
+  draw_slowly(room, "alice", false);
+  EXPECT_EQ(room.records.find(guest_called("alice"))->quality.shown().level, QualityLevel::kGood);
+}
+
 TEST(DanceRecords, ChoicesOutliveAGuestAndTheListIsBounded) {
   Room room;
   room.records.choice_of(guest_called("bob")).volume = 0.5f;

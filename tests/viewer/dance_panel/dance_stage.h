@@ -58,6 +58,16 @@ class DanceStage : public OffscreenTest {
       return {};
     };
     needs.music.volume = 0.6;
+    needs.wall = [this] { return now_ - MonoTime(); };
+    needs.music.control_band = [this](BandRequest request, int style) -> Result<void> {
+      band_asked_.emplace_back(request, style);
+      return {};
+    };
+    needs.has_role = [](const GuestId& guest) { return guest.view() == "alice"; };
+    needs.send_role = [this](const GuestId& guest, std::string_view role) -> Result<void> {
+      roles_sent_.push_back(std::string(guest.view()) + ": " + std::string(role));
+      return {};
+    };
     needs.tell_voice = [this](const GuestId& guest, std::string_view command) -> Result<void> {
       told_.push_back(std::string(guest.view()) + ": " + std::string(command));
       return {};
@@ -227,6 +237,8 @@ class DanceStage : public OffscreenTest {
   std::vector<std::string> told_;
   bool plays_music_ = true;
   std::vector<double> music_told_, music_kept_;
+  std::vector<std::pair<BandRequest, int>> band_asked_;
+  std::vector<std::string> roles_sent_;
   std::vector<Line> lines_;
   MonoTime now_ = at_ms(kBegin_ms), told_at_;
   int width_px_ = kWidth_px, height_px_ = kHeight_px;

@@ -3,9 +3,12 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 
 #include "core/net/mono_clock.h"
+#include "tests/test_folder.h"
 #include "tests/viewer/board_source.h"
 #include "tests/viewer/driver_memory.h"
 #include "tests/viewer/test_scene.h"
@@ -115,6 +118,78 @@ TEST_F(DanceWindowTest, DrawsPlainlyFromTheNextPictureOn) {
   press(GLFW_KEY_ENTER);
   turn();
   EXPECT_TRUE(run_->state().has_left) << "the panel goes on";
+}
+
+TEST_F(DanceWindowTest, AHostWhoClosesTheWindowIsAskedWhileOthersAreThere) {
+  options_.hosts_room = true;
+  turn();
+  const auto close = [&] {
+    glfwSetWindowShouldClose(run_->window().handle(), GLFW_TRUE);
+    turn();
+  };
+  close();
+  EXPECT_FALSE(run_->is_over()) << "the room ends for alice and bob";
+  press(GLFW_KEY_ESCAPE);
+  turn();
+  EXPECT_FALSE(run_->is_over());
+  EXPECT_EQ(run_->wishes().closing, Closing::kNo) << "stays";
+  press(GLFW_KEY_Q);
+  EXPECT_FALSE(run_->is_over());
+  press(GLFW_KEY_ENTER);
+  turn();
+  EXPECT_TRUE(run_->is_over());
+}
+
+TEST_F(DanceWindowTest, AHostMayInsistByClosingTwice) {
+  options_.hosts_room = true;
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_FALSE(run_->is_over());
+    glfwSetWindowShouldClose(run_->window().handle(), GLFW_TRUE);
+    turn();
+  }
+  EXPECT_TRUE(run_->is_over());
+}
+
+TEST_F(DanceWindowTest, KTakesAPictureOfTheStageWithoutThePanel) {
+  const TestFolder folder("dance-window-picture");
+  setenv("XDG_VIDEOS_DIR", folder.path("").c_str(), 1);
+  const auto files = [&] {
+    std::vector<std::string> names;
+    const std::filesystem::path videos(folder.path("DanceGraph"));
+    if (std::filesystem::exists(videos))
+      for (const auto& file : std::filesystem::directory_iterator(videos))
+        names.push_back(file.path().extension().string());
+    return names;
+  };
+  press(GLFW_KEY_ESCAPE);
+  press(GLFW_KEY_K);
+  EXPECT_EQ(files(), std::vector<std::string>{".png"});
+  turn();
+  EXPECT_EQ(files().size(), 1u) << "once";
+  const auto& notes = run_->scene().notes;
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+    return note.starts_with("Picture saved: ");
+  }));
+  unsetenv("XDG_VIDEOS_DIR");
+}
+
+TEST_F(DanceWindowTest, F11FillsTheScreenAndTheWindowComesBackForTheLobby) {
+  press(GLFW_KEY_F11);
+  if (!run_->window().is_full_screen()) GTEST_SKIP() << "this display knows no monitor";
+  turn();
+  EXPECT_TRUE(run_->window().is_full_screen());
+  auto window = WindowRun::close(std::move(run_));
+  EXPECT_FALSE(window->is_full_screen());
+}
+
+TEST_F(DanceWindowTest, ShowsTheSlowDrawingNoteOnceForSeveralDances) {
+  EXPECT_FALSE(run_->wishes().knows_slow_drawing);
+  run_->wishes().knows_slow_drawing = true;
+  auto window = WindowRun::close(std::move(run_));
+  auto again = WindowRun::create(options_, source_, std::move(window));
+  ASSERT_TRUE(again) << again.error().what;
+  run_ = std::move(*again);
+  EXPECT_TRUE(run_->wishes().knows_slow_drawing);
 }
 
 TEST_F(DanceWindowTest, TheVoicesKeysAreTold) {

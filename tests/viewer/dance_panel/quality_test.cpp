@@ -74,14 +74,14 @@ TEST(Quality, IsSaidInWords) {
   const auto said = [](const QualityFigures& figures) {
     return quality_words(judge(figures), kQualityTexts);
   };
-  EXPECT_EQ(said({.loss_percent = 6.2f}), "the line loses 6 %: gaps are guessed");
-  EXPECT_EQ(said({.late_ms = 140.0f}), "poses come 140 ms late");
-  EXPECT_EQ(said({.late_ms = 140.0f, .is_predicted = true}), "poses come 140 ms late: predicted");
-  EXPECT_EQ(said({.silent_s = 3.4f}), "nothing comes for 3 s");
-  EXPECT_EQ(said({.jitter_ms = 33.0f}), "an uneven line, by 33 ms: shown later");
-  EXPECT_EQ(said({.arrival_hz = 12.0f}), "moves coarsely: 12 poses a second");
+  EXPECT_EQ(said({.loss_percent = 6.2f}), "6 % packet loss");
+  EXPECT_EQ(said({.late_ms = 140.0f}), "140 ms delay");
+  EXPECT_EQ(said({.late_ms = 140.0f, .is_predicted = true}), "140 ms delay, predicted");
+  EXPECT_EQ(said({.silent_s = 3.4f}), "no data for 3 s");
+  EXPECT_EQ(said({.jitter_ms = 33.0f}), "33 ms jitter: shown later");
+  EXPECT_EQ(said({.arrival_hz = 12.0f}), "only 12 poses a second");
   EXPECT_EQ(said({}), "");
-  EXPECT_EQ(said({.silent_s = 1e30f}), "nothing comes for 99999 s");
+  EXPECT_EQ(said({.silent_s = 1e30f}), "no data for 99999 s");
 }
 
 TEST(QualityMeter, IsWorseAtOnceAndBetterWhenItLasts) {

@@ -28,35 +28,36 @@ std::tm evening() {
 
 TEST(RecordingFile, IsNamedAfterDateAndTimeAndOverwritesNothing) {
   const auto none = [](const std::string&) { return false; };
-  EXPECT_EQ(recording_file("/v", evening(), none), "/v/dance-2026-11-26-0805.lcm");
+  EXPECT_EQ(dance_file("/v", evening(), ".lcm", none), "/v/dance-2026-11-26-0805.lcm");
   std::set<std::string> there{"/v/dance-2026-11-26-0805.lcm", "/v/dance-2026-11-26-0805-2.lcm"};
-  EXPECT_EQ(recording_file("/v", evening(),
-                           [&](const std::string& path) { return there.contains(path); }),
-            "/v/dance-2026-11-26-0805-3.lcm");
+  const auto is_there = [&](const std::string& path) { return there.contains(path); };
+  EXPECT_EQ(dance_file("/v", evening(), ".lcm", is_there), "/v/dance-2026-11-26-0805-3.lcm");
+  EXPECT_EQ(dance_file("/v", evening(), ".png", is_there), "/v/dance-2026-11-26-0805.png");
+  EXPECT_EQ(dance_file("/v", evening(), ".png", [](const std::string&) { return true; }),
+            std::nullopt);
 }
 
 TEST(RecordingsFolder, IsWhereAPersonLooks) {
   std::map<std::string, std::string> environment{{"HOME", "/home/ann"}};
-  std::set<std::string> folders;
-  const auto folder = [&] {
-    return recordings_folder(
-        [&](const char* name) -> const char* {
-          const auto it = environment.find(name);
-          return it == environment.end() ? nullptr : it->second.c_str();
-        },
-        [&](const std::string& path) { return folders.contains(path); });
+  const Environment get = [&](const char* name) -> const char* {
+    const auto it = environment.find(name);
+    return it == environment.end() ? nullptr : it->second.c_str();
   };
-  EXPECT_EQ(folder(), "/home/ann/.local/share/dance/recordings");
+  using Folders = std::vector<std::string>;
+  EXPECT_EQ(recordings_folder(get), "/home/ann/Videos/DanceGraph");
+  EXPECT_EQ(older_recordings_folders(get),
+            (Folders{"/home/ann/Videos", "/home/ann/.local/share/dance/recordings"}));
   environment["XDG_DATA_HOME"] = "/data";
-  EXPECT_EQ(folder(), "/data/dance/recordings");
-  folders.insert("/home/ann/Videos");
-  EXPECT_EQ(folder(), "/home/ann/Videos");
   environment["XDG_VIDEOS_DIR"] = "/films";
-  EXPECT_EQ(folder(), "/films");
+  EXPECT_EQ(recordings_folder(get), "/films/DanceGraph");
+  EXPECT_EQ(older_recordings_folders(get),
+            (Folders{"/films", "/home/ann/Videos", "/data/dance/recordings",
+                     "/home/ann/.local/share/dance/recordings"}));
   environment["XDG_VIDEOS_DIR"] = "films";  // a relative one means nothing
-  EXPECT_EQ(folder(), "/home/ann/Videos");
+  EXPECT_EQ(recordings_folder(get), "/home/ann/Videos/DanceGraph");
   environment.clear();
-  EXPECT_EQ(folder(), "");
+  EXPECT_EQ(recordings_folder(get), "");
+  EXPECT_TRUE(older_recordings_folders(get).empty());
 }
 
 // A program that stands for dance record.

@@ -27,7 +27,7 @@ struct Desk {
     link->link.verdict = verdict;
     link->at = now;
   }
-  std::string words() const { return desk.words(kRemovalTexts, now); }
+  std::string words() const { return desk.words(ShownNames(), kRemovalTexts, now); }
 
   RemovalDesk desk;
   DanceBoard board;
@@ -61,7 +61,7 @@ TEST(RemovalDesk, SaysSoWhereNoLinkHearsIt) {
   Desk desk;
   desk.desk.remove(guest_called("bob"), desk.now);
   desk.run(Duration::s(3));
-  EXPECT_EQ(desk.words(), "This house's link did not take it.");
+  EXPECT_EQ(desk.words(), "The link did not accept the request.");
   EXPECT_LE(desk.asks, 11);
 }
 

@@ -72,6 +72,30 @@ TEST(FaceMap, NeverBothSets) {
   EXPECT_FLOAT_EQ(weights[2], 0.4f);
 }
 
+TEST(FaceMap, SmilesAndLooksByVrmsExpressionsWhereArKitsAreMissing) {
+  AvatarModel vrm = with_morphs({"smile", "left", "right", "up"});
+  vrm.expressions = {{"happy", {{0, 1.0f}}},
+                     {"lookLeft", {{1, 1.0f}}},
+                     {"lookRight", {{2, 1.0f}}},
+                     {"lookUp", {{3, 1.0f}}}};
+  Face face = laughing();
+  face[Expression::kEyeLookOutLeft] = face[Expression::kEyeLookInRight] = 0.25f;
+  std::vector<float> weights(4, 0.0f);
+  const FaceMap map(vrm);
+  map.add(face, weights);
+  EXPECT_FLOAT_EQ(weights[0], 0.3f) << "one corner of two";
+  EXPECT_FLOAT_EQ(weights[1], 0.25f);
+  EXPECT_EQ(weights[2], 0.0f);
+  EXPECT_TRUE(map.has_look());
+  EXPECT_FALSE(FaceMap(vrm_model()).has_look());
+
+  AvatarModel arkit = arkit_model();
+  arkit.expressions = {{"lookLeft", {{11, 1.0f}}}, {"happy", {{11, 1.0f}}}};
+  std::vector<float> mixed(12, 0.0f);
+  FaceMap(arkit).add(face, mixed);
+  EXPECT_FLOAT_EQ(mixed[11], 0.25f) << "it has ARKit's smile, and no look of its own";
+}
+
 TEST(FaceMap, WeightsStayWithinTheirBounds) {
   AvatarModel model = vrm_model();
   model.expressions[0].binds = {{0, 1.0f}, {0, 1.0f}, {77, 1.0f}};

@@ -115,6 +115,26 @@ TEST(FigureContact, PalmsComeTogetherAndPartWithoutAJump) {
   }
 }
 
+TEST(FigureContact, AnotherPictureOfTheSameMomentIsTheSame) {
+  const auto bodies = all_bodies()[0];
+  FigurePoser poser;
+  for (int i = 0; i < 60; ++i) {  // arms that are still on their way to each other too
+    SceneState scene =
+        couple_with_palms(Vector3f(0.01f, 1.3f, 0.35f), 0.4f - 0.007f * static_cast<float>(i));
+    scene.time += Duration::us(16'667 * i);
+    scene.guests[0].avatar = bodies.first;
+    scene.guests[1].avatar = bodies.second;
+    const auto matrices = [&] {
+      std::vector<JointMatrix> all;
+      for (const PosedFigure& figure : poser.pose(scene))
+        all.insert(all.end(), figure.W_from_joint.begin(), figure.W_from_joint.end());
+      return all;
+    };
+    const auto first = matrices();
+    for (int again = 0; again < 3; ++again) ASSERT_EQ(matrices(), first) << "picture " << i;
+  }
+}
+
 TEST(FigureContact, SolesAreOnTheFloorWhateverTheLegs) {
   for (const Bodies& bodies : all_bodies()) {
     FigurePoser poser;

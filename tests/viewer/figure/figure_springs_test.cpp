@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/viewer/figure/test_rigs.h"
-#include "viewer/figure/blink.h"
+#include "viewer/figure/face/blink.h"
 
 namespace dance {
 namespace {
@@ -35,8 +35,8 @@ AvatarModel with_a_braid(bool has_ball) {
                                Vector3f(0, -0.25f, -0.2f), 0.08f});
   }
   model.springs.push_back(spring);
-  model.morphs.push_back({"eyelids", {0}, {Vector3f::UnitY()}, {}});
-  model.expressions.push_back({"blink", {{0, 1.0f}}});
+  model.morphs = {{"eyelids", {0}, {Vector3f::UnitY()}, {}}};
+  model.expressions = {{"blink", {{0, 1.0f}}}};
   return model;
 }
 

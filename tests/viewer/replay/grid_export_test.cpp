@@ -13,7 +13,7 @@
 namespace dance {
 namespace {
 
-constexpr PictureSize kSize{320, 180};
+constexpr ViewPictureSize kSize{320, 180};
 
 class GridExport : public ::testing::TestWithParam<ViewMode> {
  protected:

@@ -67,6 +67,19 @@ Hands hands_at(double s) {
   return hands;
 }
 
+// A line each four seconds, a sign each three.
+std::optional<Chat> chat_at(double s, int frame) {
+  Chat chat;
+  chat.time = night(s);
+  chat.clock_id = kClock;
+  if (frame % 240 == 100) {
+    const std::string text = "the song since " + std::to_string(frame) + " \xe2\x99\xa5";
+    return chat.text.assign(text) ? std::optional(chat) : std::nullopt;
+  }
+  chat.kind = frame % 360 == 90 ? ChatKind::kHeart : ChatKind::kApplause;
+  return frame % 180 == 90 ? std::optional(chat) : std::nullopt;
+}
+
 // Guest 1 pauses for a second every nine, guest 2 comes late and leaves, guest 3 is slow.
 bool dances(std::size_t guest, double s, int frame) {
   if (guest == 1) return std::fmod(s, 9.0) < 8.0;
@@ -94,6 +107,13 @@ void write_recorded_night(const std::string& path, double seconds, bool is_packe
       beat.confidence = 1.0f;
       beat.playing = true;
       log.write(s, Channel::of_house(Signal::kBeat), beat);
+    }
+    if (const auto chat = chat_at(s, frame)) {
+      const bool is_own = frame % 480 < 240;
+      log.write(s,
+                Channel::of(Signal::kChat, is_own ? Where::kCapture : Where::kGuest,
+                            *GuestId::parse(is_own ? "guest-0" : "guest-4")),
+                *chat);
     }
     for (std::size_t guest = 0; guest < kGuests; ++guest) {
       if (!dances(guest, s, frame)) continue;

@@ -1,5 +1,6 @@
 // A night that never was, as a log: five guests with hands, some of them captured in this house and
-// some on its stage, who pause and come late; two songs. For tests of replay.
+// some on its stage, who pause and come late, and write to each other; two songs. For tests of
+// replay.
 //
 // Units/frames: the house's clock is kWallAhead_us behind the log's.
 // Ownership:    returns the bytes.

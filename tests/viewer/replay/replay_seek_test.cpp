@@ -54,6 +54,8 @@ std::shared_ptr<const ReplayIndex> index_of(const std::string& path) {
 void expect_same(const SceneGuest& a, const SceneGuest& b) {
   EXPECT_EQ(a.id, b.id);
   EXPECT_EQ(a.opacity, b.opacity);
+  EXPECT_EQ(a.sign, b.sign);
+  EXPECT_EQ(a.sign_age_s, b.sign_age_s);
   EXPECT_EQ(a.skeleton, b.skeleton);
   EXPECT_EQ(a.pose.sequence, b.pose.sequence) << a.id.view();
   EXPECT_EQ(a.pose.capture_time, b.pose.capture_time);
@@ -83,6 +85,12 @@ void expect_same(const SceneState& a, const SceneState& b) {
   EXPECT_EQ(a.time, b.time);
   ASSERT_EQ(a.guests.size(), b.guests.size());
   for (std::size_t i = 0; i < a.guests.size(); ++i) expect_same(a.guests[i], b.guests[i]);
+  ASSERT_EQ(a.lines.size(), b.lines.size());
+  for (std::size_t i = 0; i < a.lines.size(); ++i) {
+    EXPECT_EQ(a.lines[i].guest, b.lines[i].guest);
+    EXPECT_EQ(a.lines[i].text, b.lines[i].text);
+    EXPECT_EQ(a.lines[i].written, b.lines[i].written);
+  }
   ASSERT_EQ(a.music.has_value(), b.music.has_value());
   if (!a.music) return;
   EXPECT_EQ(a.music->beats, b.music->beats);
@@ -165,6 +173,22 @@ TEST_F(RecordedNight, PackedAndPlainShowTheSame) {
     const MonoTime moment = index->begin + Duration::seconds(anywhere(random));
     expect_same(plain.jumped(moment), packed.jumped(moment));
   }
+}
+
+TEST_F(RecordedNight, LinesAndSignsAreShownAtTheirTime) {
+  const auto index = index_of(packed_);
+  Look look(packed_, index);
+  const MonoTime late = index->begin + Duration::s(44);
+  const SceneState end = look.jumped(late);
+  ASSERT_EQ(end.lines.size(), 11u);
+  EXPECT_EQ(end.lines.back().text, "the song since 2500 \xe2\x99\xa5");
+  EXPECT_EQ(end.lines.back().guest.view(), "guest-0");
+  const SceneState begin = look.jumped(index->begin + Duration::ms(2000));
+  ASSERT_EQ(begin.lines.size(), 1u);
+  EXPECT_NEAR((begin.lines[0].written - index->begin).as_seconds(), 100.0 / 60.0, 0.001);
+  EXPECT_EQ(begin.guests[0].sign, DanceSign::kHeart);
+  EXPECT_NEAR(begin.guests[0].sign_age_s, 0.5f, 0.001f);
+  EXPECT_EQ(look.jumped(index->begin + Duration::ms(3600)).guests[0].sign, DanceSign::kNone);
 }
 
 TEST_F(RecordedNight, TheIndexSaysWhoPausedAndWhenTheBeatsWere) {

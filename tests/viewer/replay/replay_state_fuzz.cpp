@@ -4,11 +4,12 @@
 #include <cstdint>
 
 #include "core/base/assert.h"
+#include "tests/fuzz_target.h"
 #include "viewer/feed/guest_board.h"
 #include "viewer/feed/stage_roster.h"
 #include "viewer/replay/state_bytes.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(replay_state) {
   using namespace dance;
   constexpr std::uint64_t kClock = 7;
   static GuestBoard board(kClock, false);
@@ -35,7 +36,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     if (scene.music) DANCE_ASSERT(std::isfinite(scene.music->beats));
   }
-  StateWriter writer;
+  ReplayStateWriter writer;
   board.carry(writer, [](const GuestId&, bool) { return true; });
   return 0;
 }

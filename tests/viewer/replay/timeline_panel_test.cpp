@@ -110,12 +110,12 @@ TEST_F(TimelinePanelTest, BracketsSetTheLoopAndLTurnsItOnAndOff) {
 TEST_F(TimelinePanelTest, EAsksWhatToExportAndANumberAnswers) {
   EXPECT_FALSE(press(GLFW_KEY_2));  // a dancer's, not the timeline's
   EXPECT_TRUE(press(GLFW_KEY_E));
-  EXPECT_TRUE(press(GLFW_KEY_2));
-  EXPECT_EQ(started_, std::vector{ExportKind::kGlb});
+  EXPECT_TRUE(press(GLFW_KEY_1));
+  EXPECT_EQ(started_, std::vector{ExportKind::kVideo}) << "the kinds for dancers come first";
   EXPECT_FALSE(press(GLFW_KEY_2));
   EXPECT_TRUE(press(GLFW_KEY_E));
   EXPECT_TRUE(press(GLFW_KEY_4));
-  EXPECT_EQ(started_.back(), ExportKind::kVideo);
+  EXPECT_EQ(started_.back(), ExportKind::kBvh);
   EXPECT_TRUE(press(GLFW_KEY_E));
   EXPECT_TRUE(press(GLFW_KEY_E));  // asks no more
   EXPECT_FALSE(press(GLFW_KEY_1));

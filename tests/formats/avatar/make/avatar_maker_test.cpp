@@ -211,6 +211,21 @@ TEST(AvatarMaker, ElbowsAndKneesStayRoundWhenTheyBend) {
   }
 }
 
+TEST(AvatarMaker, ShrugsLeaveTheHeadWhole) {
+  for (const std::string_view name : design_names()) {
+    const AvatarModel& model = made(name);
+    const float chin_m = -model.joints[index_of(Bone::kHead)].node_from_mesh.translation().y();
+    const auto places = bent(model, Bone::kLeftShoulder, AngleAxisf(0.6f, Vector3f::UnitZ()));
+    float furthest_m = 0.0f;
+    for (std::size_t v = 0; v < places.size(); ++v) {
+      const Vector3f& rest = model.vertices[v].place_m;
+      if (rest.y() > chin_m + 0.02f && std::abs(rest.x()) < 0.12f)
+        furthest_m = std::max(furthest_m, (places[v] - rest).norm());
+    }
+    EXPECT_LT(furthest_m, 0.001f) << name;
+  }
+}
+
 const AvatarMorph* morph_of(const AvatarModel& model, const std::string& name) {
   for (const AvatarMorph& morph : model.morphs)
     if (morph.name == name) return &morph;

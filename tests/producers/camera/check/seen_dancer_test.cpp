@@ -79,7 +79,7 @@ class FilmedDancer : public testing::Test {
     SKIP_WITHOUT_POSE_MODELS();
     SKIP_WITHOUT_VIDEO();
     EstimatorOptions options;
-    options.model = PoseModel::kFull;
+    options.model = PoseNetworkModel::kFull;
     auto opened = PoseEstimator::open(options);
     ASSERT_TRUE(opened) << opened.error().what;
     estimator_ = std::move(*opened);

@@ -95,7 +95,7 @@ TEST(PoseEngine, BothAgreeOnTheRealNetworks) {
   if (!kHasXnnpack) GTEST_SKIP() << "only one engine is built in";
   const std::string folder = pose_models_folder("");
   const std::pair<Result<PoseGraph>, double> cases[] = {
-      {read_detector(folder), -1.0}, {read_landmark_model(folder, PoseModel::kFull), 0.0}};
+      {read_detector(folder), -1.0}, {read_landmark_model(folder, PoseNetworkModel::kFull), 0.0}};
   for (const auto& [read, least] : cases) {
     ASSERT_TRUE(read) << read.error().what;
     PoseGraph graph = *read;

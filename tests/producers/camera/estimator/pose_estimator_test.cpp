@@ -267,7 +267,7 @@ TEST(PoseEstimator, DamagedAndMistakenNetworksAreNamed) {
   ASSERT_FALSE(damaged);
   EXPECT_NE(damaged.error().what.find("pose_landmark_full.tflite: "), std::string::npos)
       << damaged.error().what;
-  options.model = PoseModel::kLite;
+  options.model = PoseNetworkModel::kLite;
   const auto mistaken = PoseEstimator::open(options);
   ASSERT_FALSE(mistaken);
   EXPECT_NE(mistaken.error().what.find("is not a network that finds the points of a body"),

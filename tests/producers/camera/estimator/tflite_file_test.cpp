@@ -111,7 +111,7 @@ TEST(TfliteFile, ReadsTheRealNetworks) {
   const auto people = read_detector(pose_models_folder(""));
   ASSERT_TRUE(people) << people.error().what;
   EXPECT_EQ(people->shape(people->input), (Shape{1, 224, 224, 3}));
-  const auto points = read_landmark_model(pose_models_folder(""), PoseModel::kFull);
+  const auto points = read_landmark_model(pose_models_folder(""), PoseNetworkModel::kFull);
   ASSERT_TRUE(points) << points.error().what;
   EXPECT_EQ(points->outputs.size(), 5u);
 }

@@ -5,8 +5,9 @@
 
 #include "core/base/assert.h"
 #include "producers/camera/estimator/tflite_file.h"
+#include "tests/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(tflite_file) {
   auto graph = dance::parse_tflite({data, size});
   if (!graph) {
     DANCE_ASSERT(!graph.error().what.empty());

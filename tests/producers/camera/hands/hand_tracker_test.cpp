@@ -19,11 +19,11 @@
 namespace dance {
 namespace {
 
-constexpr double kVideo_hz = 24000.0 / 1001.0;
+constexpr double kHandsVideo_hz = 24000.0 / 1001.0;
 constexpr int kFirst = 25, kEnd = 33;  // both hands are seen
 
 Frame frame_of(const cv::Mat& image, int number) {
-  return {image, MonoTime{} + Duration::seconds(1.0 + number / kVideo_hz),
+  return {image, MonoTime{} + Duration::seconds(1.0 + number / kHandsVideo_hz),
           static_cast<std::uint64_t>(number)};
 }
 

@@ -2,8 +2,8 @@
 
 #include "producers/camera/stereo/calibration_file.h"
 #include "producers/camera/stereo/chessboard_calibration.h"
+#include "testing/camera/drawn_board.h"
 #include "tests/producers/camera/files/written_pictures.h"
-#include "tests/producers/camera/stereo/drawn_board.h"
 #include "tests/producers/camera/stereo/opencv_doc.h"
 
 namespace dance {
@@ -28,7 +28,7 @@ ChessboardCalibration of(int eyes, BoardShape shape) {
 }
 
 TEST(Chessboard, AKnownCameraComesBack) {
-  const BoardPainter painter(kLens);
+  const DrawnBoardPainter painter(kLens);
   ChessboardCalibration calibration = of(1, kDrawn);
   std::uint64_t seed = 1;
   for (const BoardPlace& place : ways_to_hold(kLens, kDrawn))
@@ -49,8 +49,8 @@ TEST(Chessboard, AKnownCameraComesBack) {
 
 TEST(Chessboard, AKnownPairComesBack) {
   const StereoRig rig = small_rig();
-  const BoardPainter left(rig.left);
-  const BoardPainter right(rig.right);
+  const DrawnBoardPainter left(rig.left);
+  const DrawnBoardPainter right(rig.right);
   ChessboardCalibration calibration = of(2, kDrawn);
   std::uint64_t seed = 1;
   for (BoardPlace place : ways_to_hold(kLens, kDrawn)) {
@@ -74,7 +74,7 @@ TEST(Chessboard, AKnownPairComesBack) {
 }
 
 TEST(Chessboard, SaysWhatIsStillToBeShown) {
-  const BoardPainter painter(kLens);
+  const DrawnBoardPainter painter(kLens);
   ChessboardCalibration calibration = of(1, kDrawn);
   const auto ways = ways_to_hold(kLens, kDrawn);
   EXPECT_NE(calibration.progress().find("0 views; show the board turned"), std::string::npos)
@@ -102,7 +102,7 @@ TEST(Chessboard, SaysWhatIsStillToBeShown) {
 }
 
 TEST(Chessboard, WaitsForABoardThatIsHeldStill) {
-  const BoardPainter painter(kLens);
+  const DrawnBoardPainter painter(kLens);
   auto calibration = *ChessboardCalibration::make({kDrawn, 1, true});
   auto place = ways_to_hold(kLens, kDrawn)[0];
   EXPECT_EQ(calibration.add(painter.draw(kDrawn, place, 1)), BoardAdded::kMoving);
@@ -114,13 +114,13 @@ TEST(Chessboard, WaitsForABoardThatIsHeldStill) {
 TEST(Chessboard, AViewOfABentBoardIsDropped) {
   Pinhole lens = kLens;
   lens.distortion = {0.3, 0.1, 0.02, 0.02, 0.0};
-  const BoardPainter painter(kLens);
-  const BoardPainter bent(lens);
+  const DrawnBoardPainter painter(kLens);
+  const DrawnBoardPainter bent(lens);
   ChessboardCalibration calibration = of(1, kDrawn);
   std::uint64_t seed = 1;
   for (const BoardPlace& place : ways_to_hold(kLens, kDrawn)) {
     // One of them is seen through another lens.
-    const BoardPainter& eye = seed == 4 ? bent : painter;
+    const DrawnBoardPainter& eye = seed == 4 ? bent : painter;
     calibration.add(eye.draw(kDrawn, place, seed++));
   }
   const auto report = calibration.solve();

@@ -5,8 +5,9 @@
 
 #include "core/base/assert.h"
 #include "producers/camera/stereo/zed_ini.h"
+#include "tests/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(zed_ini) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   dance::looks_like_zed_ini(text);
   for (const auto& [width, height] :

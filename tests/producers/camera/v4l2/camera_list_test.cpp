@@ -1,16 +1,15 @@
 #include "producers/camera/v4l2/camera_list.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <linux/videodev2.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 
+#include "core/program/child_process.h"
 #include "producers/camera/v4l2/v4l2_device.h"
 
 namespace dance {
@@ -46,6 +45,13 @@ TEST(CameraList, TheTableSaysWhatACameraOffersAndWhatIsTaken) {
             "  not read: H264 Y16-BE\n"
             "  taken unless asked otherwise: 1280x720 MJPG at 29.97 Hz\n"
             "/dev/video2: no permission; be in the group video\n");
+}
+
+TEST(CameraList, NamesOfDriversMoveNoCursorAndChangeNoDirectionOfText) {
+  const std::vector<CameraEntry> cameras{{"/dev/video0", "HD\x1b[2J\u202eCam", "usb\n1", {}, ""}};
+  EXPECT_TRUE(camera_table(cameras).starts_with("/dev/video0  HD?[2J?Cam  (usb?1)\n"))
+      << camera_table(cameras);
+  EXPECT_NE(camera_json(cameras).find("HD?[2J?Cam"), std::string::npos) << camera_json(cameras);
 }
 
 TEST(CameraList, WithoutACameraItSaysWhatToDo) {
@@ -103,23 +109,20 @@ TEST(CameraList, SaysWhichProgramHasAFileOpen) {
   std::ofstream(path) << "x";
   EXPECT_EQ(holders_of(path), "");
   EXPECT_EQ(holders_of(path + "_missing"), "");
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 0, path.c_str(), 0, 0);
-  std::array<char*, 3> words{const_cast<char*>("sleep"), const_cast<char*>("1000"), nullptr};
-  pid_t child = 0;
-  ASSERT_EQ(posix_spawnp(&child, "sleep", &actions, nullptr, words.data(), environ), 0);
-  // By its name once it is what it was told to become.
-  const std::string expected = "sleep (" + std::to_string(child) + ")";
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  ASSERT_GE(file, 0);
+  auto child = ChildProcess::start({.program = "sleep", .arguments = {"1000"}, .input_fd = file});
+  ::close(file);
+  ASSERT_TRUE(child) << child.error().what;
+  // The child has its name only after exec.
+  const std::string expected = "sleep (" + std::to_string(child->pid()) + ")";
   std::string found;
   for (int i = 0; i < 10'000 && found != expected; ++i) {
     found = holders_of(path);
     ::usleep(1'000);
   }
   EXPECT_EQ(found, expected);
-  ::kill(child, SIGKILL);
-  ::waitpid(child, nullptr, 0);
-  posix_spawn_file_actions_destroy(&actions);
+  child->kill_now();
   std::filesystem::remove(path);
 }
 

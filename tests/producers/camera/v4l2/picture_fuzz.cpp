@@ -6,8 +6,9 @@
 
 #include "core/base/assert.h"
 #include "producers/camera/v4l2/picture_converter.h"
+#include "tests/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+DANCE_FUZZ_TARGET(picture) {
   using namespace dance;
   constexpr std::array<std::uint32_t, 5> kEncodings{V4L2_PIX_FMT_YUYV, V4L2_PIX_FMT_NV12,
                                                     V4L2_PIX_FMT_MJPEG, V4L2_PIX_FMT_GREY,
