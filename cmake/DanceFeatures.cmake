@@ -122,12 +122,15 @@ dance_optional(DANCE_MUSIC "Music" DANCE_HAVE_MUSIC "${SNDFILE_FOUND}" "libsndfi
 pkg_check_modules(FFMPEG QUIET IMPORTED_TARGET libavformat>=59.27 libavcodec libavutil libswresample libswscale)
 dance_optional(DANCE_FFMPEG "Media with FFmpeg" DANCE_HAVE_FFMPEG "${FFMPEG_FOUND}"
   "libavformat-dev libavcodec-dev libavutil-dev libswresample-dev libswscale-dev")
+# The house band's instruments: in a module too (producers/music/band).
+pkg_check_modules(FLUIDSYNTH QUIET IMPORTED_TARGET fluidsynth>=2.2)
+dance_optional(DANCE_FLUIDSYNTH "Band's soundfonts" DANCE_HAVE_FLUIDSYNTH "${FLUIDSYNTH_FOUND}" "libfluidsynth-dev timgm6mb-soundfont")
 pkg_check_modules(PULSE QUIET IMPORTED_TARGET libpulse)
 dance_optional(DANCE_SOUND "Sound" DANCE_HAVE_SOUND "${PULSE_FOUND}" "libpulse-dev")
 
 # Voices: their codec, and what takes echo and noise out of them.
 pkg_check_modules(OPUS QUIET IMPORTED_TARGET opus)
-pkg_check_modules(WEBRTC QUIET IMPORTED_TARGET webrtc-audio-processing)
+pkg_search_module(WEBRTC QUIET IMPORTED_TARGET webrtc-audio-processing-1 webrtc-audio-processing) # Debian 13 and 12
 set(voice_found FALSE)
 if(PULSE_FOUND AND OPUS_FOUND AND WEBRTC_FOUND AND NOT DANCE_SOUND STREQUAL "OFF")
   set(voice_found TRUE)
@@ -172,6 +175,10 @@ if(XNNPACK_INCLUDE_DIR AND XNNPACK_LIBRARY AND PTHREADPOOL_INCLUDE_DIR AND PTHRE
   add_library(xnnpack::xnnpack ALIAS dance_xnnpack)
   target_include_directories(dance_xnnpack SYSTEM INTERFACE ${XNNPACK_INCLUDE_DIR} ${PTHREADPOOL_INCLUDE_DIR})
   target_link_libraries(dance_xnnpack INTERFACE ${XNNPACK_LIBRARY} ${PTHREADPOOL_LIBRARY})
+  file(STRINGS ${XNNPACK_INCLUDE_DIR}/xnnpack.h unary REGEX "xnn_define_unary")
+  if(unary)
+    target_compile_definitions(dance_xnnpack INTERFACE DANCE_XNNPACK_HAS_UNARY=1)
+  endif()
 endif()
 dance_optional(DANCE_XNNPACK "Fast pose network" DANCE_HAVE_XNNPACK ${xnnpack_found} "libxnnpack-dev libpthreadpool-dev")
 
@@ -204,6 +211,10 @@ dance_optional(DANCE_QR "QR codes" DANCE_HAVE_QR "${QRENCODE_FOUND}" "libqrencod
 
 pkg_check_modules(NATS QUIET IMPORTED_TARGET libnats)
 dance_optional(DANCE_NATS "Servers in clusters" DANCE_HAVE_NATS "${NATS_FOUND}" "libnats-dev")
+
+# Readers of strangers' files may do nothing but read.
+pkg_check_modules(SECCOMP QUIET IMPORTED_TARGET libseccomp)
+dance_optional(DANCE_SECCOMP "Confined readers" DANCE_HAVE_SECCOMP "${SECCOMP_FOUND}" "libseccomp-dev")
 
 find_program(JAVAC javac)
 find_program(JAR jar)

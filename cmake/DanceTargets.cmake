@@ -1,17 +1,38 @@
-# dance_library, dance_program, dance_test and dance_fuzz: every target of the tree is made by one of these, so that
-# standard, warnings, sanitizers and include root are the same everywhere and are properties of targets.
+# dance_library and dance_program, and dance_test and dance_fuzz in DanceTests.cmake: every target of the tree is made by one
+# of these, so that standard, warnings, sanitizers and include root are the same everywhere and are properties of targets.
 include_guard(GLOBAL)
+
+# g++ collects garbage less often, which saves compile time, until its heap has a quarter of the memory of each processor, and
+# at most 64 MiB: the page faults of a larger one take more time than they save.
+cmake_host_system_information(RESULT DANCE_COMPILER_HEAP_KIB QUERY TOTAL_PHYSICAL_MEMORY)
+cmake_host_system_information(RESULT processors QUERY NUMBER_OF_LOGICAL_CORES)
+math(EXPR DANCE_COMPILER_HEAP_KIB "${DANCE_COMPILER_HEAP_KIB} * 256 / ${processors}")
+if(DANCE_COMPILER_HEAP_KIB GREATER 65536)
+  set(DANCE_COMPILER_HEAP_KIB 65536)
+endif()
 
 add_library(dance_settings INTERFACE)
 target_compile_features(dance_settings INTERFACE cxx_std_20)
 target_include_directories(dance_settings INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(dance_settings INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Woverloaded-virtual>
+  -Wall -Wextra -Wpedantic $<$<NOT:$<BOOL:$<TARGET_PROPERTY:DANCE_MAY_SHADOW>>>:-Wshadow> -Wconversion -Wno-sign-conversion $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Woverloaded-virtual>
   -ffp-contract=off $<$<BOOL:${DANCE_WERROR}>:-Werror>
+  $<$<CXX_COMPILER_ID:GNU>:SHELL:--param ggc-min-expand=400 --param ggc-min-heapsize=${DANCE_COMPILER_HEAP_KIB}>
   # g++ 12 sees overlapping copies in "text" + std::string that are not there (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   # In a unity build the sources are included files, of which g++ takes anonymous namespaces amiss.
   $<$<AND:$<COMPILE_LANG_AND_ID:CXX,GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage>)
+# Debian's hardening, and checks of indices in the standard library; the sanitizers have their own. Binaries do not name the
+# folder that they were built in.
+target_compile_options(dance_settings INTERFACE -ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)
+if(NOT DANCE_SANITIZE)
+  include(CheckCXXCompilerFlag)
+  check_cxx_compiler_flag(-fcf-protection DANCE_HAVE_CF_PROTECTION)
+  target_compile_options(dance_settings INTERFACE -fstack-protector-strong -fstack-clash-protection
+    $<$<BOOL:${DANCE_HAVE_CF_PROTECTION}>:-fcf-protection> $<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2>)
+  target_compile_definitions(dance_settings INTERFACE _GLIBCXX_ASSERTIONS)
+  target_link_options(dance_settings INTERFACE -Wl,-z,relro -Wl,-z,now)
+endif()
 # The sanitizers' own code, and optimisation that is only begun, make g++ 12 see uninitialised values and overruns in the
 # standard library that are not there; the libraries and programs of the ci build look for the real ones.
 set(DANCE_FALSE_WARNINGS_OFF
@@ -21,7 +42,9 @@ if(DANCE_SANITIZE)
   # own assertions see as well.
   target_compile_options(dance_settings INTERFACE
     -fsanitize=${DANCE_SANITIZE} -fno-sanitize=null,alignment,object-size -fno-sanitize-recover=all
-    -fno-omit-frame-pointer -g1 -O1 ${DANCE_FALSE_WARNINGS_OFF})
+    -fno-omit-frame-pointer ${DANCE_FALSE_WARNINGS_OFF})
+  target_compile_options(dance_settings INTERFACE
+    $<$<CXX_COMPILER_ID:Clang>:-fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/cmake/sanitizer_ignorelist.txt>)
   target_link_options(dance_settings INTERFACE -fsanitize=${DANCE_SANITIZE})
   # Two hundred programs, four times as fast.
   find_program(DANCE_LLD ld.lld)
@@ -61,6 +84,8 @@ function(dance_cover)
 endfunction()
 
 function(dance_use_test_options target)
+  # In a unit of several tests a local name may shadow a constant of another test.
+  set_target_properties(${target} PROPERTIES DANCE_MAY_SHADOW "${CMAKE_UNITY_BUILD}")
   if(DANCE_TEST_OPTIONS)
     target_compile_options(${target} PRIVATE ${DANCE_TEST_OPTIONS} ${DANCE_FALSE_WARNINGS_OFF})
   endif()
@@ -80,9 +105,14 @@ function(dance_use_pch target)
   if(DANCE_COVERAGE)
     set(pch dance_covered_pch)
   endif()
-  if("GTest::gtest_main" IN_LIST libraries)
+  if("GTest::gtest" IN_LIST libraries)
     set(pch dance_test_pch)
     set(more <gtest/gtest.h>)
+    # clang wants a precompiled header of the same optimisation.
+    get_target_property(type ${target} TYPE)
+    if(type STREQUAL "STATIC_LIBRARY")
+      dance_use_test_options(${target})
+    endif()
   elseif(DANCE_PCH STREQUAL "TESTS")
     return()
   endif()
@@ -93,7 +123,7 @@ function(dance_use_pch target)
     dance_use_coverage(${pch})
     if(more)
       dance_use_test_options(${pch})
-      target_link_libraries(${pch} PRIVATE GTest::gtest_main)
+      target_link_libraries(${pch} PRIVATE GTest::gtest)
     endif()
     target_precompile_headers(${pch} PRIVATE <Eigen/Geometry> <algorithm> <array> <functional> <memory> <optional>
       <span> <string> <string_view> <tl/expected.hpp> <vector> ${more})
@@ -166,85 +196,4 @@ function(dance_write_commands)
     string(APPEND lines "${command} ${targets}\n")
   endforeach()
   file(WRITE ${PROJECT_BINARY_DIR}/share/dancegraph/commands.txt "${lines}")
-endfunction()
-
-# dance_test(NAME LABEL unit|threads|flow|golden|soak SOURCES x_test.cpp … LIBS targets … [TIMEOUT s] [PRELOAD x.so]
-# [BESIDE_OTHERS KIND] [WHOLE]): one GoogleTest program, run with that library loaded before all others. One CTest entry per
-# TEST; WHOLE: one in all, where making what the tests share takes longer than they do (what skips in it is not counted). A
-# flow test runs in a network namespace of its own, one at a time of its kind (clients, sound, programs, cluster, tunnel, house, or the usual one),
-# at the ordinary priority: unit tests have the lowest, so that they fill the processors and hold up no program that dances.
-# What takes long begins first.
-# thread_targets are those in which threads meet, flow_targets those in which programs do: what the thread sanitizer is for.
-add_custom_target(thread_targets)
-add_custom_target(flow_targets)
-function(dance_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "WHOLE" "LABEL;TIMEOUT;PRELOAD;BESIDE_OTHERS" "SOURCES;LIBS")
-  add_executable(${name} ${arg_SOURCES})
-  dance_use_test_options(${name})
-  target_link_libraries(${name} PRIVATE dance_settings ${arg_LIBS} GTest::gtest_main)
-  target_compile_definitions(${name} PRIVATE
-    DANCE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" DANCE_BINARY_DIR="${PROJECT_BINARY_DIR}")
-  dance_use_pch(${name})
-  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
-  set(cost 50)
-  if(NOT arg_TIMEOUT)
-    set(arg_TIMEOUT 300)
-    set(cost 0)
-  endif()
-  if(arg_LABEL STREQUAL "threads")
-    add_dependencies(thread_targets ${name})
-  endif()
-  if(arg_LABEL STREQUAL "flow")
-    add_dependencies(flow_targets ${name})
-    set(emulator ${PROJECT_SOURCE_DIR}/tests/private_network.sh)
-    # Programs of others that start for seconds.
-    if(arg_BESIDE_OTHERS STREQUAL "clients")
-      list(PREPEND emulator nice -n 5)
-    endif()
-    set_target_properties(${name} PROPERTIES CROSSCOMPILING_EMULATOR "${emulator}")
-    set(cost 100)
-    set(serial RESOURCE_LOCK flow)
-    if(arg_BESIDE_OTHERS)
-      set(serial RESOURCE_LOCK ${arg_BESIDE_OTHERS})
-    endif()
-  elseif(NOT arg_LABEL STREQUAL "threads")
-    set_target_properties(${name} PROPERTIES CROSSCOMPILING_EMULATOR "nice;-n;19")
-  endif()
-  set(preload "")
-  if(arg_PRELOAD)
-    set(preload ENVIRONMENT_MODIFICATION "LD_PRELOAD=set:${DANCE_PRELOAD_FIRST}${arg_PRELOAD}")
-  endif()
-  if(arg_WHOLE)
-    add_test(NAME ${name} COMMAND ${name})
-    set_tests_properties(${name} PROPERTIES LABELS ${arg_LABEL} TIMEOUT 600 COST 50)
-    return()
-  endif()
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
-    # The keys that programs make for this machine are not those of the user who runs the tests.
-    PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT} COST ${cost}
-      ENVIRONMENT "XDG_CONFIG_HOME=${PROJECT_BINARY_DIR}/test-config" SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]" ${serial} ${preload})
-endfunction()
-
-# dance_fuzz(NAME SOURCES x_fuzz.cpp LIBS targets … CORPUS dir): with DANCE_FUZZ a libFuzzer program fuzz/NAME; in a build
-# without sanitizers the same source is replayed over the corpus and its mutations by tests/fuzz_replay_main.cpp.
-function(dance_fuzz name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "CORPUS" "SOURCES;LIBS")
-  if(DANCE_SANITIZE AND NOT DANCE_FUZZ)
-    return()
-  endif()
-  get_filename_component(corpus "${arg_CORPUS}" ABSOLUTE BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR})
-  if(DANCE_FUZZ)
-    add_executable(fuzz_${name} ${arg_SOURCES})
-    target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
-    set_target_properties(fuzz_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/fuzz)
-    # It adds what it finds: to a copy.
-    file(COPY ${corpus}/ DESTINATION ${PROJECT_BINARY_DIR}/fuzz/corpus_fuzz_${name})
-  else()
-    add_executable(fuzz_${name} ${arg_SOURCES} ${PROJECT_SOURCE_DIR}/tests/fuzz_replay_main.cpp)
-    set_target_properties(fuzz_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
-    add_test(NAME fuzz.${name} COMMAND fuzz_${name} ${corpus})
-    set_tests_properties(fuzz.${name} PROPERTIES LABELS fuzz TIMEOUT 300)
-  endif()
-  target_link_libraries(fuzz_${name} PRIVATE dance_settings ${arg_LIBS})
-  dance_use_pch(fuzz_${name})
 endfunction()

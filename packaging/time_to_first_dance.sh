@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # How long it takes from a Debian package to the dance.
 #   sudo packaging/time_to_first_dance.sh dancegraph_*.deb          on this machine: installs it where it is not installed
-#   sudo packaging/time_to_first_dance.sh --fresh dancegraph_*.deb  in a fresh Debian 12, made with mmdebstrap (not counted)
-#                                                                   in a folder and removed again; its packages are fetched
+#   sudo packaging/time_to_first_dance.sh --fresh dancegraph_*.deb  in a fresh Debian of this machine's release, made with
+#                                                                   mmdebstrap (not counted) in a folder and removed again;
+#                                                                   its packages are fetched
 #   … --fresh dancegraph_*.deb --with PACKAGE,…                     the same where these are there before, as libgl1-mesa-dri,libpulse0
 #                                                                   or task-xfce-desktop on a desktop
 # Prints the seconds of each step: apt-get's lists, fetching and setting up the package with all that it depends on, from `dance demo` to two dancers
@@ -17,7 +18,7 @@ main() {
         *) echo "wrong use; see: $0 --help" >&2; exit 2 ;;
       esac ;;
     --inside) measure "$2" ;;
-    "" | -*) sed -n '2,9s/^# \{0,1\}//p' "$0"; [ "${1:-}" = --help ] || exit 2 ;;
+    "" | -*) sed -n '2,10s/^# \{0,1\}//p' "$0"; [ "${1:-}" = --help ] || exit 2 ;;
     *) measure "$1" ;;
   esac
 }
@@ -31,14 +32,16 @@ print_row() { printf '%-44s %6s s\n' "$1" "$2"; }
 in_fresh_debian() { # PACKAGE THOSE-THAT-ARE-THERE
   command -v mmdebstrap >/dev/null || { echo "mmdebstrap is missing; install it with: apt-get install mmdebstrap" >&2; exit 1; }
   [ "$(id -u)" = 0 ] || { echo "--fresh makes a system in a folder, which only root may" >&2; exit 1; }
-  local package sources=/etc/apt/sources.list.d/debian.sources
+  local package release sources=/etc/apt/sources.list.d/debian.sources
   package=$(realpath "$1")
   root=$(mktemp -d) # not local: the trap comes after this function
   # Its mounts are in a namespace of their own, and gone with it.
   trap 'rm -rf --one-file-system "$root"' EXIT
   [ -e "$sources" ] || sources=/etc/apt/sources.list
-  echo "making a Debian 12 (not counted)" >&2
-  mmdebstrap --quiet --variant=apt ${2:+--include="$2"} bookworm "$root/debian" "$sources"
+  # A package is for the release that it was made on.
+  release=$(. /etc/os-release && echo "${VERSION_CODENAME:?this is no Debian}")
+  echo "making a Debian $release (not counted)" >&2
+  mmdebstrap --quiet --variant=apt ${2:+--include="$2"} "$release" "$root/debian" "$sources"
   # As on a machine that was just installed: the lists of packages are not there yet.
   rm -rf "$root"/debian/var/lib/apt/lists/*
   cp "$package" "$root/debian/root/dancegraph.deb"

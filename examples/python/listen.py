@@ -20,14 +20,21 @@ import time
 from dancelcm.pose_t import pose_t
 
 
+IP_MULTICAST_ALL = 49  # Linux's number; the module socket has no name for it
+
+
 def open_bus(url):
-    """A socket that hears the group of an URL like udpm://239.255.76.67:7667?ttl=0."""
+    """A socket that receives the group of an URL like udpm://239.255.76.67:7667?ttl=0.
+
+    It joins on the loopback device, over which programs of DanceGraph send, and receives from no other: no host of the
+    network can send to it.
+    """
     group, port = re.match(r"udpm://([\d.]+):(\d+)", url).groups()
     bus = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     bus.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-    bus.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
+    bus.setsockopt(socket.IPPROTO_IP, IP_MULTICAST_ALL, 0)
     bus.bind((group, int(port)))
-    membership = struct.pack("=4sI", socket.inet_aton(group), socket.INADDR_ANY)
+    membership = struct.pack("=4s4si", socket.inet_aton(group), socket.inet_aton("0.0.0.0"), socket.if_nametoindex("lo"))
     bus.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, membership)
     bus.settimeout(0.2)
     return bus
