@@ -4,12 +4,16 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <memory>
+#include <span>
+#include <string>
 
 #include "apps/crowd/crowd_worker.h"
 #include "core/net/mono_clock.h"
 #include "core/net/udp_socket.h"
+#include "core/program/child_pipe.h"
 #include "core/program/child_process.h"
 #include "core/program/program.h"
 #include "tunnel/server/server.h"
@@ -23,6 +27,7 @@ constexpr std::size_t kFilesBesides = 64;
 // Before it is measured; between the end of a second and its count.
 constexpr std::int64_t kSettles_s = 2;
 constexpr Duration kCountsAfter = Duration::ms(200);
+constexpr std::size_t kLongestLine_bytes = 400;
 
 std::size_t open_file_limit(std::size_t wanted) {
   rlimit limit{};
@@ -111,12 +116,27 @@ class CrowdRun {
         std::to_string(std::min<std::size_t>(2 * plan_.guests, kMostCrowdGuests))};
     if (plan_.share_ms >= 0.0)
       arguments.insert(arguments.end(), {"--share-ms", std::to_string(plan_.share_ms)});
-    DANCE_TRY(ChildProcess server, ChildProcess::start({program_folder() + "/dance-server",
-                                                        arguments, "/dev/null", "/dev/null"}));
+    DANCE_TRY(server_talk_, ChildPipe::open());
+    ChildProcess::Options options{program_folder() + "/dance-server", arguments, "/dev/null"};
+    options.talk_fd = server_talk_.child_fd();
+    DANCE_TRY(ChildProcess server, ChildProcess::start(options));
+    server_talk_.let_go();
     own_server_ = std::make_unique<ChildProcess>(std::move(server));
     servers_.push_back(own_server_->pid());
     plan_.servers.push_back("127.0.0.1:" + std::to_string(port));
     return {};
+  }
+
+  // Keeps the last line; the server never waits for room in the pipe.
+  void read_server_talk() {
+    std::array<char, 4096> bytes;
+    while (const std::size_t count = server_talk_.read(bytes).value_or(0)) {
+      for (const char byte : std::span(bytes).first(count)) {
+        if (is_line_over_) server_line_.clear();
+        is_line_over_ = byte == '\n';
+        if (!is_line_over_ && server_line_.size() < kLongestLine_bytes) server_line_ += byte;
+      }
+    }
   }
 
   Result<void> on_second(MonoTime now) {
@@ -126,8 +146,9 @@ class CrowdRun {
       if (const auto tally = worker->take()) sum.add(*tally);
     }
     ++second_;
-    if (own_server_ && own_server_->has_ended())
-      return fail("its own server " + own_server_->exit_text());
+    const bool has_ended = own_server_ && own_server_->has_ended();
+    read_server_talk();
+    if (has_ended) return fail("its own server " + own_server_->exit_text() + ": " + server_line_);
     if (measured_from_ == 0) {
       if (auto waited = wait_for_all(sum, now); !waited) return waited;
     }
@@ -179,6 +200,9 @@ class CrowdRun {
   const std::function<void(const CrowdSecond&)>& tell_;
   std::unique_ptr<Poller> poller_;
   std::unique_ptr<ChildProcess> own_server_;
+  ChildPipe server_talk_;
+  std::string server_line_;  // the last that it has written
+  bool is_line_over_ = true;
   std::vector<pid_t> servers_;
   std::vector<CrowdDoor> doors_;
   std::unique_ptr<CrowdDances> dances_;

@@ -5,10 +5,12 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -322,8 +324,15 @@ bool machine_has_ipv6() {
 }
 
 Result<std::uint16_t> free_loopback_port() {
-  DANCE_TRY(const UdpSocket socket, UdpSocket::bind(Address::loopback(0)));
-  return socket.local_address().port();
+  // Below the ports that the kernel gives away, and from another one on in each process: the port is
+  // still free when the program that it is for binds it.
+  constexpr unsigned kFirst = 20'000, kPorts = 12'000, kPerProcess = 8;
+  static std::atomic<unsigned> next = static_cast<unsigned>(::getpid()) * kPerProcess;
+  for (unsigned tries = 0; tries < kPorts; ++tries) {
+    const auto port = static_cast<std::uint16_t>(kFirst + next++ % kPorts);
+    if (UdpSocket::bind(Address::loopback(port))) return port;
+  }
+  return fail("no UDP port of 127.0.0.1 from " + std::to_string(kFirst) + " on is free");
 }
 
 }  // namespace dance

@@ -71,22 +71,20 @@ TEST_F(HeadsetShowTest, TheStageIsDrawnForBothEyesWhereTheyAreAndTheProgramEndsW
 
 TEST_F(HeadsetShowTest, TimesThatCannotBeTrueAndEyesThatAreNotKnownDoNotStopThePictures) {
   ChildProcess& program = put_on_small(
-      "at 1.5 bad_time zero\nat 1.75 bad_time zero\nat 2 bad_time zero\nat 2.25 bad_time zero\n"
-      "at 2.5 bad_time past\nat 2.75 bad_time past\nat 3 bad_time past\nat 3.25 bad_time past\n"
-      "at 3.5 bad_time far\nat 3.75 bad_time far\nat 4 bad_time far\nat 4.25 bad_time far\n"
-      "at 4.5 bad_time garbage\nat 4.75 bad_time garbage\nat 5 bad_time garbage\n"
+      "at 1.5 bad_time zero\nat 2 bad_time zero\nat 2.25 bad_time past\nat 2.75 bad_time past\n"
+      "at 3 bad_time far\nat 3.5 bad_time far\nat 4 bad_time garbage\nat 4.5 bad_time garbage\n"
       "at 6 nan head\nat 6.5 lose head\nat 7 find head\nat 7.5 visible off\nat 8 visible on\n"
       "at 9 exit\n",
       {"--no-mirror"});
   ASSERT_TRUE(until([&] { return program.has_ended(); })) << talk();
   EXPECT_EQ(program.exit_code(), 1) << program.exit_text() << talk();
   EXPECT_GT(pictures(), 10) << record();
-  // A loaded machine skips the pictures of most of these 15 times, and is late by half a second
-  // at others, which counts too.
+  // The runtime gives each of the 8 to a frame of its own. A loaded machine is also late by half a
+  // second at others, which counts too.
   const std::string summary = talk();
   const std::size_t end = summary.find(" times that could not be true");
   ASSERT_NE(end, std::string::npos) << summary;
-  EXPECT_GE(std::stoi(summary.substr(summary.rfind(' ', end - 1) + 1)), 4) << summary;
+  EXPECT_GE(std::stoi(summary.substr(summary.rfind(' ', end - 1) + 1)), 8) << summary;
   EXPECT_EQ(said("the headset's runtime has ended the session"), 1) << talk();
 }
 

@@ -14,16 +14,18 @@ namespace {
 
 std::int64_t period_ns() { return static_cast<std::int64_t>(1e9 / runtime().script.refresh_hz); }
 
-// The time that the application is told: as the script wants it, once.
+// The time that the application is told: each bad one of the script in one frame.
 XrTime told_time(XrTime display_ns, Session& session) {
-  std::string& bad = runtime().bad_time;
-  session.is_time_bad = !bad.empty();
+  std::deque<std::string>& bad_times = runtime().bad_times;
+  session.is_time_bad = !bad_times.empty();
+  if (bad_times.empty()) return display_ns;
+  const std::string bad = bad_times.front();
+  bad_times.pop_front();
   XrTime told = display_ns;
   if (bad == "zero") told = 0;
   if (bad == "past") told = display_ns - 1'000'000'000;
   if (bad == "far") told = display_ns + 10'000'000'000;
   if (bad == "garbage") told = 0x5A5A5A5A5A5A5A5A;
-  bad.clear();
   return told;
 }
 

@@ -27,7 +27,7 @@ void start_clock_anew(Runtime& rt, const std::string& key) {
   rt.clock_start_ns.reset();
   rt.first_system_ns.reset();
   rt.next_event = 0;
-  rt.bad_time.clear();
+  rt.bad_times.clear();
   rt.failures.clear();
   rt.origins.assign(1, {0, Pose::Identity()});
   rt.is_focus_wanted = rt.is_visible_wanted = true;

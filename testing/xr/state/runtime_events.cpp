@@ -88,7 +88,7 @@ void carry_out(const ScriptEvent& event) {
       lose_instance(event);
       break;
     case EventKind::kBadTime:
-      rt.bad_time = event.word;
+      rt.bad_times.push_back(event.word);
       break;
     case EventKind::kJump:
       jump(event, rt.clock_start_ns.value_or(now_ns()) + static_cast<XrTime>(event.time_s * 1e9));
