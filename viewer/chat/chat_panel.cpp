@@ -28,15 +28,15 @@ constexpr std::size_t kCountsFrom = kMaxChatCharacters - 40;
 
 ImU32 white(float alpha) { return IM_COL32(244, 245, 249, static_cast<int>(255.0f * alpha)); }
 
-ImU32 faded(ImU32 ink, float alpha) {
-  const auto share = static_cast<float>(ink >> IM_COL32_A_SHIFT & 0xffu);
+ImU32 faded(ImU32 colour, float alpha) {
+  const auto share = static_cast<float>(colour >> IM_COL32_A_SHIFT & 0xffu);
   const auto shown = static_cast<ImU32>(std::lround(share * alpha));
-  return (ink & ~IM_COL32_A_MASK) | shown << IM_COL32_A_SHIFT;
+  return (colour & ~IM_COL32_A_MASK) | shown << IM_COL32_A_SHIFT;
 }
 
-ImU32 ink_of(const GuestId& guest, float alpha) {
-  const Eigen::Vector3f ink = srgb_from_linear(look_of(guest).tag);
-  return ImGui::ColorConvertFloat4ToU32(ImVec4(ink.x(), ink.y(), ink.z(), alpha));
+ImU32 name_colour(const GuestId& guest, float alpha) {
+  const Eigen::Vector3f colour = srgb_from_linear(look_of(guest).tag);
+  return ImGui::ColorConvertFloat4ToU32(ImVec4(colour.x(), colour.y(), colour.z(), alpha));
 }
 
 float width_of(const PanelFrame& frame) {
@@ -191,7 +191,7 @@ void ChatPanel::draw_lines(const PanelFrame& frame, float bottom_px) const {
     list.AddRectFilled({pad, at.y - 0.2f * pad}, {3.0f * pad + width, at.y + height + 0.3f * pad},
                        faded(kPaper, alpha), 0.4f * em);
     list.AddText(font, em, at, white(alpha), words.c_str(), nullptr, wrap);
-    list.AddText(font, em, at, ink_of(line->guest, alpha), name.c_str(), nullptr, wrap);
+    list.AddText(font, em, at, name_colour(line->guest, alpha), name.c_str(), nullptr, wrap);
     ++shown;
   }
 }

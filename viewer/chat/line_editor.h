@@ -20,7 +20,7 @@ class LineEditor {
   void insert(char32_t character);
   void insert(std::string_view utf8);
   // Arrows, Home, End, Backspace, Delete, and Ctrl+A; with Ctrl by words, with Shift selecting.
-  // True where the key was one of these.
+  // True if the key was one of these.
   bool on_key(const KeyPress& press);
   void erase_selection();
   void clear();

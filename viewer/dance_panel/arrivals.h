@@ -16,7 +16,7 @@ namespace dance {
 class Arrivals {
  public:
   static constexpr Duration kShown = Duration::s(5);
-  // The link names who is in the room once a second.
+  // The link publishes the guests of the room once a second.
   static constexpr Duration kGone = Duration::s(3);
   // Arrivals are announced only this long after the window opened or the link's session began.
   static constexpr Duration kSettles = Duration::s(4);
@@ -27,7 +27,7 @@ class Arrivals {
     bool has_joined = true;  // else left
     MonoTime at;
   };
-  // Once a picture.
+  // Call it once a picture.
   void work(const DanceRecords& records, MonoTime now);
   // The newest messages, in the order of time.
   const std::vector<Message>& messages() const { return messages_; }

@@ -12,14 +12,14 @@
 
 namespace dance {
 
-// When the note is shown that this machine draws slowly: once in a window's life, and not before
-// fewer pixels have been tried (viewer/display/render_scale.h).
+// SlowNote decides when to show the note that this machine draws slowly: once per window, and only
+// after fewer pixels have been tried (viewer/display/render_scale.h).
 class SlowNote {
  public:
   static constexpr Duration kSlow = Duration::s(5);
   static constexpr Duration kShown = Duration::s(15);
 
-  // Once a picture. `was_shown` becomes true when the note appears.
+  // Call it once a picture. `was_shown` becomes true when the note appears.
   bool is_shown(Duration slow_for, bool& was_shown, MonoTime now) {
     if (!was_shown && slow_for > kSlow) {
       was_shown = true;

@@ -13,7 +13,7 @@ Text style_text(int style) {
   return static_cast<Text>(static_cast<int>(Text::kBandSalsa) + style);
 }
 
-// Buttons side by side, as many in a line as it holds.
+// Places buttons side by side, and begins a new line when one is full.
 class ButtonRow {
  public:
   explicit ButtonRow(PanelControls& controls) : controls_(controls) {}

@@ -30,7 +30,7 @@ std::optional<float> where_known(float value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-// The delay from this guest's link to ours, the server's included. The guest's camera and this
+// The delay from this guest's link to ours, including the server. The guest's camera and this
 // machine's drawing do not count.
 std::optional<float> network_delay(const GuestStats& stats) {
   const float to_server = stats.gap_p50_ms[static_cast<std::size_t>(Hop::kServer)];

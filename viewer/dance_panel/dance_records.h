@@ -24,8 +24,8 @@ struct DanceGuest {
   GuestId id;
   bool is_remote = true;
   MonoTime came;     // heard of first
-  MonoTime present;  // the link, or the manager of an own guest, named it last; or it was shown
-  MonoTime named;    // the link or the manager named it last, whether it is shown or not
+  MonoTime present;  // when it was last shown, or last named by the link or (own guest) the manager
+  MonoTime named;    // when it was last named by the link or the manager
   MonoTime moved;    // a pose came last
   std::int64_t received = 0;
   QualityMeter quality;

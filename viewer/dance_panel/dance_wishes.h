@@ -20,7 +20,7 @@ struct DanceWishes {
   bool draws_plainly = false;  // as --quality low
   bool knows_slow_drawing = false;  // the note on it was shown, and is not shown again
   bool takes_picture = false;       // of the stage, into a file
-  int mute_presses = 0;             // since they were obeyed last
+  int mute_presses = 0;             // not handled yet
   int deafen_presses = 0;
   Closing closing = Closing::kNo;
   std::vector<GuestId> hidden;  // not to be drawn, in this window

@@ -21,16 +21,16 @@
 
 namespace dance {
 
-// "dance-2026-11-26-0815.lcm" for the ending ".lcm", with a number before it if that is taken.
-// nullopt: more than a hundred in this minute are.
+// "dance-2026-11-26-0815.lcm" for the ending ".lcm"; if that is taken, with a number before the
+// ending. nullopt if all hundred names of this minute are taken.
 std::optional<std::string> dance_file(const std::string& folder, const std::tm& local,
                                       std::string_view ending,
                                       const std::function<bool(const std::string&)>& is_taken);
-// The path of a file that is to be made now. Makes the folder where it is missing.
+// Returns the path for a new file. Creates the folder if it is missing.
 Result<std::string> new_dance_file(const std::string& folder, std::string_view ending);
 using Environment = std::function<const char*(const char*)>;
 // The folder of recordings: DanceGraph in XDG_VIDEOS_DIR, else in ~/Videos. It may be missing.
-// "" where there is no home.
+// "" if HOME is not set.
 std::string recordings_folder(const Environment& environment);
 // The folders of earlier versions.
 std::vector<std::string> older_recordings_folders(const Environment& environment);

@@ -6,10 +6,10 @@ namespace dance {
 namespace {
 
 constexpr double kNewest = 0.2;  // share of the newest picture in the mean
-// The first pictures of a scale are not measured, as they make its textures.
+// The first pictures of a scale are not measured, because its textures are made then.
 constexpr Duration kSettles = Duration::ms(300);
 
-// Whether the condition has held for `duration`; `since` keeps when it began to.
+// True if the condition has held for `duration`; `since` is the time at which it began to hold.
 bool has_lasted(bool holds, MonoTime& since, Duration duration, MonoTime now) {
   if (!holds) since = MonoTime();
   if (holds && !since.is_set()) since = now;

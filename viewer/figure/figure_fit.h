@@ -42,7 +42,7 @@ struct FigureFit {
   }
 };
 
-// From `low` to `high` a smooth way from 0 to 1; the other way round where high < low.
+// Rises smoothly from 0 at `low` to 1 at `high`; with high < low it falls from 1 to 0.
 inline float smooth_between(float low, float high, float value) {
   const float t = std::min(1.0f, std::max(0.0f, (value - low) / (high - low)));
   return t * t * (3.0f - 2.0f * t);

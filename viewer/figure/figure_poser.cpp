@@ -50,8 +50,8 @@ struct FigurePoser::Rig {
            height_scale == guest.height_scale && skeleton == guest.skeleton;
   }
 
-  // To the picture of `now`: what is kept counts only if that is not long ago. Another picture of
-  // the same moment starts from the same past, as its roundings would add up otherwise.
+  // Moves on to the picture of `now`. The kept state counts only if it is recent. Another picture
+  // of the same moment starts from the same state: otherwise rounding errors would add up.
   void go_on(MonoTime now) {
     if (time.is_set() && now == time) {
       twists = twists_before;

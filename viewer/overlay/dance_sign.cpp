@@ -22,15 +22,15 @@ struct SignPen {
   ImDrawList& list;
   ImVec2 centre;
   float size;
-  ImU32 ink;
+  ImU32 colour;
   float wider = 0.0f;  // of the shade
 
   ImVec2 at(float x, float y) const { return {centre.x + x * size, centre.y + y * size}; }
   void dot(float x, float y, float radius) const {
-    list.AddCircleFilled(at(x, y), (radius + wider) * size, ink, 20);
+    list.AddCircleFilled(at(x, y), (radius + wider) * size, colour, 20);
   }
   void line(float x0, float y0, float x1, float y1, float thickness) const {
-    list.AddLine(at(x0, y0), at(x1, y1), ink, (thickness + 2.0f * wider) * size);
+    list.AddLine(at(x0, y0), at(x1, y1), colour, (thickness + 2.0f * wider) * size);
     dot(x1, y1, 0.5f * thickness);
   }
   void heart() const {
@@ -38,9 +38,9 @@ struct SignPen {
     dot(0.23f, -0.16f, 0.27f);
     const float grown = 1.6f * wider;
     list.AddTriangleFilled(at(-0.47f - grown, -0.03f), at(0.47f + grown, -0.03f),
-                           at(0.0f, 0.5f + grown), ink);
+                           at(0.0f, 0.5f + grown), colour);
   }
-  // One of two that meet in the middle; `side` is −1 or 1.
+  // One of two hands that meet in the middle; `side` is −1 or 1.
   void hand(float side, float apart) const {
     const float x = side * (0.13f + apart);
     dot(x, 0.24f, 0.17f);
@@ -81,7 +81,7 @@ void draw_signs(ImDrawList& list, const SignPicture& picture) {
     const float y = std::max(at->y_px - above, 0.6f * size);  // all of it in the picture
     SignPen pen{list, {at->x_px, y}, size, kShade, 0.06f};
     draw_sign(pen, guest.sign, guest.sign_age_s);
-    pen.ink = guest.sign == DanceSign::kHeart ? kHeart : kHands;
+    pen.colour = guest.sign == DanceSign::kHeart ? kHeart : kHands;
     pen.wider = 0.0f;
     draw_sign(pen, guest.sign, guest.sign_age_s);
   }

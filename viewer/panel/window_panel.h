@@ -27,7 +27,7 @@ struct KeyPress {
   bool has_control = false;
 };
 
-// For the list of keys: "I", "where each guest's delay comes from".
+// An entry in the list of keys: "I", "where each guest's delay comes from".
 struct KeyHelp {
   std::string_view key;  // "" where its name depends on the language
   Text what = Text::kCount;
@@ -44,7 +44,7 @@ struct PanelFrame {
   ImFont* small_font = nullptr;
   ImFont* digit_font = nullptr;  // the ten digits alone, as high as they are read from afar
   Language language = Language::kEnglish;
-  float figures_px = 0.0f;  // what the figures of guests take of the left, at the top
+  float figures_px = 0.0f;  // width that the guests' figures cover at the top left
 };
 
 class WindowPanel {
@@ -53,14 +53,14 @@ class WindowPanel {
   // The heading in the list of keys; kCount for a panel without keys.
   virtual Text title() const { return Text::kCount; }
   virtual std::span<const KeyHelp> keys() const = 0;
-  // A person has opened it and can close it: it hears keys before those opened earlier.
+  // A person has opened it and can close it: it receives keys before those opened earlier.
   virtual bool is_open() const { return false; }
   // True when the key was this panel's. Esc closes what is open.
   virtual bool on_key(const KeyPress& press) = 0;
-  // A character that was typed, after the key that made it. Told to open panels alone.
+  // A typed character, after the key that made it. Only open panels receive it.
   virtual bool on_character(char32_t) { return false; }
   virtual void draw(const PanelFrame& frame) = 0;
-  // What it takes of the picture's bottom, over its whole width; notes stand above.
+  // The height that it covers at the picture's bottom, over the whole width; notes are above it.
   virtual float bottom_px(const PanelFrame&) const { return 0.0f; }
 };
 

@@ -39,7 +39,8 @@ Result<ExportWish> wish_of(const ViewOptions& options, const ReplaySource& sourc
   return wish;
 }
 
-// Without a terminal, for programs that show it, such as the lobby: a line every five percent.
+// Without a terminal one line is printed every five percent, for programs such as the lobby that
+// read it.
 void show_progress(double share, int& shown) {
   const bool is_terminal = isatty(STDERR_FILENO) == 1;
   const int step = is_terminal ? 1 : 5;

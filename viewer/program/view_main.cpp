@@ -109,8 +109,8 @@ void add_options(CommandLine& line, Wishes& wishes) {
       "auto, low (no antialiasing or mirror images, coarser figures) or high; auto is low in a "
       "window without a graphics card, else high: pictures in files always, unless low is said");
   line.add("--place", wishes.place,
-           "studio, bar or terrace, or plain for a disc of light; a window and exports have the "
-           "studio unless said, other pictures in files are plain")
+           "studio, bar, terrace, or plain (a disc of light); default: studio in a window and in "
+           "exports, plain in other pictures")
       .one_of(place_names());
   line.add("--size", wishes.size, "of window or pictures").shows_default();
   line.add_flag("--hud", view.hud, "a window with the measurements; H shows them too");
@@ -179,7 +179,7 @@ Result<void> finish(Wishes& wishes) {
       return fail("--to is not after --from; let the range end after it begins");
     wishes.view.headless = true;
   } else if (wishes.view.export_silent) {
-    return fail("--silent is of a video: dance view LOG --export FILE.mp4 --silent");
+    return fail("--silent needs a video: dance view LOG --export FILE.mp4 --silent");
   }
   if (wishes.view.panel == "timeline" && wishes.view.log.empty())
     return fail("--panel timeline needs a log: dance view LOG");

@@ -57,7 +57,7 @@ struct ViewOptions {
   bool headless = false;
   std::string session;      // the file that panels save into; "" = none
   bool hosts_room = false;  // this program runs the room's server: closing the window ends the room
-  std::string panel;        // open from the begin: dance, instruments, style, keys; "" = none
+  std::string panel;        // open at the start: dance, instruments, style, keys; "" = none
   Language language = language_of_user();  // of the texts for dancers
   std::string out = ".";
   MomentWish moments;
@@ -82,8 +82,8 @@ Result<std::vector<double>> plan_moments(const MomentWish& wish, double recorded
 // A log is shown as its house showed it: --show is for a live one.
 Result<void> check_shown(const ViewOptions& options);
 
-// The chosen place, else the studio for people: in windows and exports. Pictures of --headless
-// are for comparing, and are plain.
+// The chosen place; by default the studio in windows and exports, and the plain stage in pictures
+// of --headless, which are compared with each other.
 Venue place_to_draw(const ViewOptions& options);
 
 // "1280x720", each side 64 to 8192.

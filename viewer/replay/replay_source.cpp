@@ -67,7 +67,7 @@ ReplaySource::~ReplaySource() {
   if (thread_.joinable()) thread_.join();
 }
 
-// No index is kept of a log that was made for this run.
+// The index of a temporary log, which was made for this run, is not saved.
 Result<IndexedLog> ReplaySource::make_index(const ReadingProgress& goes_on) const {
   if (log_to_read_ == path_) return index_of_log(path_, stage_only_, goes_on);
   DANCE_TRY(ReplayIndex index, build_index(log_to_read_, stage_only_, goes_on));

@@ -1,5 +1,5 @@
-// The state of a GuestBoard as bytes of an index: ReplayStateWriter keeps what a carry() shows it,
-// StateReader sets it again.
+// The state of a GuestBoard as bytes of an index: ReplayStateWriter saves the fields that carry()
+// passes to it, StateReader restores them.
 //
 // Units/frames: little-endian; times in ns.
 // Ownership:    the reader borrows its bytes.

@@ -94,7 +94,7 @@ std::vector<Vector3f> CameraRig::points_of(const SceneState& scene) const {
   return points;
 }
 
-// The nearer, the more the middle of the faces becomes the middle of the picture.
+// The nearer the camera, the closer the picture's middle is to the middle of the faces.
 Vector3f CameraRig::towards_faces(const std::vector<const SceneState*>& scenes,
                                   const Vector3f& target_W_m) const {
   if (zoom_ >= 1.0f) return target_W_m;

@@ -21,8 +21,8 @@ namespace dance {
 // kAuto looks across the line on which the dancers stand.
 enum class CameraPreset { kAuto, kFront, kSide, kTop, kOrbit };
 
-// The share of the way from the faces to the middle of the frame that is left at `zoom` (below 1:
-// nearer): faces keep about their place in the picture while they come to its middle.
+// How far the picture's middle lies from the faces (0) to the middle of the frame (1) at this zoom.
+// Zooms below 1 are nearer; from 1 on the picture's middle is the middle of the frame.
 float share_of_frame(float zoom);
 
 class CameraRig {

@@ -1,6 +1,6 @@
-// ViewCoupleFinder: pairs of dancers for the camera, from where they stand: each is the other's
-// nearest, and near. A couple stays one until it has clearly parted, so that a grid of couples does
-// not flicker.
+// ViewCoupleFinder: finds pairs of dancers for the camera by their positions: each is the nearest
+// of the other, and near. A couple ends only when the two have clearly parted, so that a grid of
+// couples does not flicker.
 //
 // Units/frames: metres in W.
 // Ownership:    remembers the couples; allocates when guests come or go.

@@ -1,11 +1,9 @@
-// MouseButtons: presses and releases of a mouse's buttons, kept until the panels take them. Panels
-// look at the mouse once a picture: each picture takes at most one change of each button, so that a
-// click that is shorter than a picture is seen.
+// MouseButtons: a queue of presses and releases of a mouse's buttons. Panels read the mouse once a
+// picture, and would miss a click that is shorter. Each picture therefore takes at most one change
+// of each button from the queue.
 //
 // Units/frames: pixels of the window, from its upper left corner.
 // Ownership:    plain values; at most kMost changes, further ones are dropped.
-// Threads:      none inside.
-// Failure:      none.
 #pragma once
 
 #include <array>
@@ -31,7 +29,7 @@ class MouseButtons {
   }
   void clear() { count_ = 0; }
 
-  // Calls `use` with each change of the next picture; how many there were.
+  // Calls `use` with each change of the next picture. Returns the number of changes.
   template <class Use>
   std::size_t take(const Use& use) {
     std::bitset<kButtons> changed;

@@ -204,7 +204,7 @@ double ViewWindow::refresh_hz() const {
   return std::min(mode->refreshRate, 480);
 }
 
-// Panels are drawn in pixels, the cursor is told in the window's own units.
+// Panels use pixels; GLFW reports the cursor in the window's own units.
 std::pair<float, float> ViewWindow::cursor_px() const {
   int width = 0, height = 0;
   glfwGetWindowSize(window_, &width, &height);

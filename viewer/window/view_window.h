@@ -83,7 +83,7 @@ class ViewWindow {
   void set_letter_scale(float letter_scale) { letter_scale_ = letter_scale; }
   double refresh_hz() const;  // of that monitor; 60 where it is not known
   bool is_over() const;
-  // The whole monitor that the window is on, or back to its place.
+  // Fills the monitor that the window is on, or returns to the window's previous place and size.
   void toggle_full_screen();
   bool is_full_screen() const;
   // Revokes a request to close the window, and brings it back if it is minimised.
@@ -91,7 +91,7 @@ class ViewWindow {
   GLFWwindow* handle() const { return window_; }
   // Gives the current context of Dear ImGui the clipboard.
   void lend_clipboard();
-  // Gives Dear ImGui the mouse and the clipboard: before each picture.
+  // Gives Dear ImGui the mouse and the clipboard. Call it before each picture.
   void pass_input_to_panels();
 
  private:

@@ -171,7 +171,7 @@ void WindowRun::ask_before_closing() {
 
 Result<void> WindowRun::turn() {
   auto turned = turn_to_next_picture();
-  ask_before_closing();  // also where an event came while poses were waited for
+  ask_before_closing();  // an event may have arrived while the picture waited for poses
   return turned;
 }
 

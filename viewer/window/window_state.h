@@ -19,7 +19,7 @@ enum class DisplayMode { kTearFree, kLowLatency };
 // What the keys of the voice have been told, for VoiceKeys.
 struct VoiceWishes {
   bool is_talk_held = false;
-  int mute_presses = 0;  // since they were obeyed last
+  int mute_presses = 0;  // not handled yet
   int deafen_presses = 0;
 };
 
@@ -31,7 +31,7 @@ struct WindowState {
   Venue place = Venue::kStudio;
   int place_changes = 0;  // how often a key has changed it
   DisplayMode display = DisplayMode::kTearFree;
-  int full_screen_presses = 0;  // since they were obeyed last
+  int full_screen_presses = 0;  // not handled yet
   VoiceWishes voice;
   DanceWishes dance;
   bool is_over = false;

@@ -31,7 +31,7 @@
       "El servidor no acepta la clave de esta casa.", \
       "Der Server nimmt den Schlüssel dieses Hauses nicht an.") \
   ROW(kBannerKeyCure, \
-      "It was revoked or replaced. Ask the server's keeper for a new invitation.", \
+      "It was revoked or replaced. Ask the person who runs the server for a new invitation.", \
       "Fue revocada o cambiada. Pide una nueva invitación a quien lleva el servidor.", \
       "Er wurde widerrufen oder ersetzt. Bitte um eine neue Einladung.") \
   ROW(kBannerLinkGone, \
@@ -75,7 +75,7 @@
       "Tritt ins Bild. Wurde die Kamera ausgesteckt, oder hat sie ein anderes Programm, so " \
       "stecke sie ein oder schließe es.") \
   ROW(kBannerNoSound, \
-      "Your microphone cannot be reached: this computer's sound does not answer.", \
+      "Your microphone cannot be reached: this computer's sound system does not answer.", \
       "No se puede acceder a tu micrófono: el sistema de sonido no responde.", \
       "Dein Mikrofon ist nicht erreichbar: Das Soundsystem antwortet nicht.") \
   ROW(kBannerNoSoundCure, \
@@ -90,18 +90,18 @@
       "Server und Haus vertrauen einander nicht.") \
   ROW(kBannerNotTrustedCure, \
       "One of the certificates is not signed by an authority that the other trusts: ask " \
-      "the server's keeper.", \
+      "the person who runs the server.", \
       "Uno de los certificados no lo firma una autoridad conocida: pregunta a quien lleva " \
       "el servidor.", \
-      "Eines der Zertifikate ist nicht von anerkannter Stelle unterschrieben: frage den " \
+      "Eines der Zertifikate ist nicht von anerkannter Stelle unterschrieben: Frage den " \
       "Betreiber des Servers.") \
   ROW(kBannerServerKey, \
       "The server has another key than before, so no dance was sent to it.", \
       "El servidor tiene otra clave que antes, así que no se le ha enviado ningún baile.", \
       "Der Server hat einen anderen Schlüssel als bisher; es wurde kein Tanz an ihn gesendet.") \
   ROW(kBannerServerKeyCure, \
-      "Another machine may have taken its place. Ask its keeper whether the key has changed; " \
-      "if so, open a new invitation.", \
+      "Another machine may have taken its place. Ask the person who runs it whether the key has " \
+      "changed; if so, open a new invitation.", \
       "Puede que otra máquina ocupe su lugar. Pregunta a quien lleva el servidor si ha " \
       "cambiado la clave; si es así, abre una invitación nueva.", \
       "Vielleicht hat ein anderer Rechner seinen Platz eingenommen. Frage den Betreiber, ob " \
@@ -225,9 +225,9 @@
       "{} baila en esta casa.", \
       "{} tanzt in diesem Haus.") \
   ROW(kDanceRemovePassed, \
-      "{}'s server was told.", \
+      "Sent to {}'s server.", \
       "Se avisó al servidor de {}.", \
-      "Der Server von {} weiß es.") \
+      "An den Server von {} gesendet.") \
   ROW(kDanceRemoveSilent, \
       "The server did not answer.", \
       "El servidor no respondió.", \
@@ -237,9 +237,9 @@
       "¿Expulsar a {} por 10 minutos?", \
       "{} für 10 Minuten entfernen?") \
   ROW(kDanceRemoveUnheard, \
-      "The link did not accept the request.", \
-      "El enlace no aceptó la petición.", \
-      "Die Verbindung hat die Anfrage nicht angenommen.") \
+      "Your connection did not accept the request.", \
+      "Tu conexión no aceptó la petición.", \
+      "Deine Verbindung hat die Anfrage nicht angenommen.") \
   ROW(kDanceShow, "Show", "Mostrar", "Zeigen") \
   ROW(kDanceSlow, \
       "Slow picture, {} a second: no graphics card here.", \
@@ -253,7 +253,7 @@
   ROW(kDanceSpeakerOn, "Loudspeaker on", "Altavoz encendido", "Lautsprecher an") \
   ROW(kDanceStay, "Stay", "Quedarse", "Bleiben") \
   ROW(kDanceTalkHint, "Hold B to talk", "Mantén B para hablar", "Zum Sprechen B halten") \
-  ROW(kDanceTalks, "talks", "habla", "spricht") \
+  ROW(kDanceTalks, "talking", "habla", "spricht") \
   ROW(kDanceTalking, "You are heard", "Se te oye", "Du wirst gehört") \
   ROW(kDanceTempo, "{} BPM", "{} BPM", "{} BPM") \
   ROW(kDanceUnmute, "Unmute", "Activar voz", "Stummschaltung aufheben") \
@@ -267,7 +267,7 @@
       "Tienes el altavoz apagado. Pulsa J para que te oigan.", \
       "Dein Lautsprecher ist aus. Drücke erst J, damit man dich hört.") \
   ROW(kVoiceKeyNotNeeded, \
-      "You are heard without the key.", \
+      "You can be heard without pressing the key.", \
       "Se te oye sin pulsar la tecla.", \
       "Man hört dich auch ohne die Taste.") \
   ROW(kVoiceMuted, \

@@ -1,4 +1,4 @@
-// Texts of the list of keys, the timeline, the exports and the views, as rows of
+// Texts of the list of keys, the timeline, exports, views and places, as rows of
 // viewer/words/text_table.h.
 //
 // Ownership: constants.

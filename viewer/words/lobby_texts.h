@@ -75,7 +75,7 @@
   ROW(kLobbyMicrophoneUnreachable, \
       "Your microphone cannot be reached: the others would not hear you.", \
       "No se puede acceder a tu micrófono: los demás no te oirían.", \
-      "Dein Mikrofon ist nicht erreichbar: die anderen würden dich nicht hören.") \
+      "Dein Mikrofon ist nicht erreichbar: Die anderen würden dich nicht hören.") \
   ROW(kLobbyWithoutVoice, "Dance without voice", "Bailar sin voz", "Ohne Stimme tanzen") \
   ROW(kLobbyNoHeadsetBuilt, \
       "This version has no headset support.", \
@@ -201,7 +201,7 @@
       "Cuidado: este servidor tiene otra clave que aquel en el que entraste, así que puede ser " \
       "otra máquina. Entra solo si quien lo lleva te dijo que la clave ha cambiado.", \
       "Vorsicht: Dieser Server hat einen anderen Schlüssel als der bisherige und ist vielleicht " \
-      "ein anderer Rechner. Tritt nur ein, wenn der Gastgeber dir den Wechsel bestätigt hat.") \
+      "ein anderer Rechner. Tritt nur bei, wenn der Gastgeber dir den Wechsel bestätigt hat.") \
   ROW(kLobbyAskNew, \
       "Until you join, camera and microphone stay off and nothing is sent.", \
       "Hasta que entres, la cámara y el micrófono siguen apagados y no se envía nada.", \
@@ -271,7 +271,7 @@
   ROW(kLobbyInviteSelf, \
       "You are {} yourself: your guest needs another name.", \
       "{} eres tú: tu invitado necesita otro nombre.", \
-      "{} bist du selbst: dein Gast braucht einen anderen Namen.") \
+      "{} bist du selbst: Dein Gast braucht einen anderen Namen.") \
   ROW(kLobbyNoInvited, \
       "Nobody is invited yet.", \
       "Aún no hay invitados.", \

@@ -14,9 +14,10 @@
       "Bailes que has grabado", \
       "Aufgenommene Tänze") \
   ROW(kLobbyShelfEmpty, \
-      "Nothing is recorded yet. Press Record during a dance: it is kept in {}.", \
+      "Nothing is recorded yet. Press Record during a dance: it is saved in {}.", \
       "Aún no hay grabaciones. Pulsa Grabar durante un baile: se guarda en {}.", \
-      "Noch ist nichts aufgenommen. Drücke beim Tanzen auf Aufnehmen: es wird in {} abgelegt.") \
+      "Noch ist nichts aufgenommen. Drücke beim Tanzen auf Aufnehmen: Der Tanz wird in {} " \
+      "gespeichert.") \
   ROW(kLobbyDateFormat, "%Y-%m-%d, %H:%M", "%d/%m/%Y, %H:%M", "%d.%m.%Y, %H:%M") \
   ROW(kLobbyToday, "Today, {}", "Hoy, {}", "Heute, {}") \
   ROW(kLobbyYesterday, "Yesterday, {}", "Ayer, {}", "Gestern, {}") \
@@ -24,7 +25,7 @@
       "no dance in this file", \
       "no hay ningún baile en este archivo", \
       "kein Tanz in dieser Datei") \
-  ROW(kLobbyTempo, "{} bpm", "{} BPM", "{} BPM") \
+  ROW(kLobbyTempo, "{} BPM", "{} BPM", "{} BPM") \
   ROW(kLobbyWatch, "Watch", "Ver", "Ansehen") \
   ROW(kLobbyMakeVideo, "Make a video", "Crear un vídeo", "Video erstellen") \
   ROW(kLobbyExport, "Export", "Exportar", "Exportieren") \
@@ -53,7 +54,7 @@
   ROW(kLobbyNotRenamed, \
       "The recording keeps its name: choose another.", \
       "La grabación conserva su nombre: elige otro.", \
-      "Die Aufnahme behält ihren Namen: wähle einen anderen.") \
+      "Die Aufnahme behält ihren Namen: Wähle einen anderen.") \
   ROW(kLobbyNotDeleted, \
       "The recording could not be deleted.", \
       "No se pudo borrar la grabación.", \

@@ -13,8 +13,8 @@ using Eigen::Vector3f;
 
 constexpr float kFurthest_m = 6.0f;
 constexpr float kSwitches = 0.75f;  // another dancer at less than this share of the distance
-// Up to the first angle the eyes turn as far as they can; beyond it they return to the front, and
-// are there at the second.
+// Up to the first angle the eyes turn as far as they can. Beyond it they turn back; at the second
+// they look straight ahead.
 constexpr float kFrontEnds_rad = 0.9f, kSideBegins_rad = 1.3f;
 constexpr float kLinear = 0.75f;  // of the range; the rest is approached and never reached
 

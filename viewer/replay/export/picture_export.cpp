@@ -111,7 +111,7 @@ class PictureExport : public ReplayExport {
     if (auto added = video_->add(picture); !added) return added;
     return sound_ == nullptr ? Result<void>() : add_sound();
   }
-  // Adds the sound of the last picture, up to the begin of the next. The sound of a silent video is
+  // Adds the sound of the last picture, up to the start of the next. The sound of a silent video is
   // read, too: only then is it known what is missing.
   Result<void> add_sound() {
     const double frames = static_cast<double>(at_ + 1) / hz_ * SoundTrack::kSoundRate_hz;
@@ -127,8 +127,8 @@ class PictureExport : public ReplayExport {
       text = "silent: FFmpeg here has no sound encoder for such a file";
     if (!video_->sound_encoder().empty()) {
       const std::string heard = sound_->description();
-      text =
-          (heard.empty() ? "nothing is heard" : "sound: " + heard) + ", " + video_->sound_encoder();
+      text = (heard.empty() ? "no sound in this range" : "sound: " + heard) + ", " +
+             video_->sound_encoder();
     }
     const std::string missing = sound_->missing();
     return missing.empty() ? text : text + "; " + missing;

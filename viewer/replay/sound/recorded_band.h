@@ -50,7 +50,7 @@ class RecordedBand {
 
  private:
   static constexpr std::size_t kMostTitles = 3;
-  // A song of a set, and how far a moment is from its begin.
+  // A song of a set, and how far a moment is from its start.
   struct Place {
     BandStyle style = BandStyle::kSalsa;
     std::uint32_t seed = 0;

@@ -27,7 +27,7 @@ struct SoundEvent {
 
 class SoundLog {
  public:
-  // Begins at least ReplayIndex::kLeadIn before `from`, or at the begin of the log.
+  // Begins at least ReplayIndex::kLeadIn before `from`, or at the start of the log.
   static Result<SoundLog> open(const std::string& path, const ReplayIndex& index, MonoTime from);
 
   enum class Step {

@@ -11,8 +11,8 @@ static_assert(kBandRate_hz == SoundTrack::kSoundRate_hz);
 static_assert(kVoiceRate_hz == SoundTrack::kSoundRate_hz);
 
 constexpr int kSearchedAtOnce = 50'000;  // messages: some milliseconds
-// Songs are published once a second. A song that is first received within this time after the begin
-// of a recording was already in force at the begin.
+// Songs are published once a second. A song that is first received within this time after the start
+// of a recording was already in force at the start.
 constexpr Duration kSongPeriod = Duration::ms(1500);
 // Play-out starts this early, so that a voice that is already speaking is complete when the range
 // begins.

@@ -2,7 +2,7 @@
 // songs, and the voices; the music is quieter while a guest speaks. Recordings do not hold other
 // music: missing() names it.
 //
-// Units/frames: interleaved stereo at kSoundRate_hz, within -0.95 to 0.95. Frame 0 is at the begin
+// Units/frames: interleaved stereo at kSoundRate_hz, within -0.95 to 0.95. Frame 0 is at the start
 //               of the range. The same range has the same samples each time.
 // Ownership:    owns two readers of the log, and the sound of some seconds.
 // Failure:      open() names the log; read() fails if the band's soundfont cannot be read.

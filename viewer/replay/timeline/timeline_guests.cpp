@@ -24,7 +24,7 @@ std::string seconds_text(Duration length) {
   return text.data();
 }
 
-// By ExportKind.
+// In the order of ExportKind.
 constexpr std::array<Text, 4> kKinds{Text::kExportVideo, Text::kExportPictures, Text::kExportGlb,
                                      Text::kExportBvh};
 

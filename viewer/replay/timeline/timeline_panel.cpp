@@ -250,7 +250,7 @@ void TimelinePanel::draw_words(const Ink& ink, const Box& box, const ReplayPlaye
       clock_text(player.seconds(), 0.1) + " / " + clock_text(player.length_s(), 1.0);
   std::string music = bar_text(player.index().beats, player.position());
   if (const double tempo = tempo_at(player.index().beats, player.position()); tempo > 0.0)
-    music += "   " + std::to_string(std::lround(tempo)) + " bpm";
+    music += "   " + std::to_string(std::lround(tempo)) + " BPM";
   float right = box.right - 1.2f * em;
   ink.right(right, y, kBright, time.c_str());
   right -= ink.width_of(time.c_str()) + 1.6f * em;

@@ -42,7 +42,7 @@ class PlaceBuilder {
   // the room.
   void begin(PlaceSide side, float depth_m = 0.0f,
              PlaceGroup::Kind kind = PlaceGroup::Kind::kSolid);
-  // A sheet parallel to the wall, in pieces small enough for the lamps' light.
+  // A flat panel parallel to the wall, in pieces small enough for the lamps' light.
   void add_panel(const PlaceRect& rect, float w, const Eigen::Vector3f& albedo);
   // A box without a back; its front is at w_front.
   void add_box(const PlaceRect& rect, float w_back, float w_front, const Eigen::Vector3f& albedo);

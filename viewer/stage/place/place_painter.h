@@ -71,7 +71,7 @@ class PlacePainter {
   GlVertexArray no_vertices_;
   GlVertexArray array_;
   GlBuffer buffer_;
-  GlBuffer corners_;  // indices: two triangles for each sheet
+  GlBuffer corners_;  // indices: two triangles for each quad
   GlVertexArray halo_array_;
   GlBuffer halo_buffer_;
 };

@@ -79,7 +79,7 @@ struct PlaceShape {
   Venue place = Venue::kPlain;
   PlaceRoom room;
   float height_m = 0.0f;              // 0: open above
-  std::vector<PlaceVertex> vertices;  // four to a sheet, counter-clockwise from inside
+  std::vector<PlaceVertex> vertices;  // four to a quad, counter-clockwise from inside
   std::vector<PlaceHalo> halos;
   std::vector<PlaceGroup> groups;
   std::optional<PlaceMirror> mirror;

@@ -38,7 +38,7 @@ void add_mirror(PlaceBuilder& build) {
   build.add_panel({0.0f, width, 0.0f, glass.bottom_m}, 0.0f, kDarkOak);
   build.add_panel({0.0f, glass.left_m, glass.bottom_m, glass.top_m}, 0.0f, 0.9f * kPlaster);
   build.add_panel({glass.right_m, width, glass.bottom_m, glass.top_m}, 0.0f, 0.9f * kPlaster);
-  // Its frame, and the joints of its sheets.
+  // The frame of the mirror, and the joints between its panes.
   build.add_box({glass.left_m, glass.right_m, glass.top_m, glass.top_m + 0.07f}, 0.0f, 0.04f, kOak);
   build.add_box({glass.left_m, glass.right_m, glass.bottom_m - 0.07f, glass.bottom_m}, 0.0f, 0.04f,
                 kOak);
@@ -46,10 +46,10 @@ void add_mirror(PlaceBuilder& build) {
                 kOak);
   build.add_box({glass.right_m, glass.right_m + 0.07f, glass.bottom_m, glass.top_m}, 0.0f, 0.04f,
                 kOak);
-  const int sheets = static_cast<int>((glass.right_m - glass.left_m) / 2.0f);
-  for (int i = 1; i < sheets; ++i) {
+  const int panes = static_cast<int>((glass.right_m - glass.left_m) / 2.0f);
+  for (int i = 1; i < panes; ++i) {
     const float u = glass.left_m + (glass.right_m - glass.left_m) * static_cast<float>(i) /
-                                       static_cast<float>(sheets);
+                                       static_cast<float>(panes);
     build.add_panel({u - 0.01f, u + 0.01f, glass.bottom_m, glass.top_m}, 0.006f,
                     Vector3f::Constant(0.05f));
   }

@@ -99,7 +99,7 @@ void add_hills(PlaceBuilder& build, float radius_m, float low_m, float high_m, i
                    {foot, foot, ridge, ridge}, 0.0f);
 }
 
-// A small sheet that faces the terrace.
+// A small quad that faces the terrace.
 void add_point(PlaceBuilder& build, const Vector3f& p, float half_m, const Vector3f& colour) {
   const Vector3f to_middle = -p.normalized();
   Vector3f right = Vector3f::UnitY().cross(to_middle);
