@@ -51,7 +51,7 @@ bool LobbyFigures::shows_figures(const LobbyModel& model) {
   return model.screen == LobbyScreen::kDance || model.screen == LobbyScreen::kYou;
 }
 
-std::optional<Duration> LobbyFigures::patience(const LobbyModel& model, MonoTime now) const {
+std::optional<Duration> LobbyFigures::time_until_due(const LobbyModel& model, MonoTime now) const {
   if (cannot_draw_ || !shows_figures(model)) return std::nullopt;
   return pace_.left(now);
 }

@@ -31,7 +31,7 @@ class LobbyFigures {
   // the page must be drawn again.
   bool step(LobbyModel& model, float scale, MonoTime now);
   // Time until the next picture is due; nullopt if the current page shows none.
-  std::optional<Duration> patience(const LobbyModel& model, MonoTime now) const;
+  std::optional<Duration> time_until_due(const LobbyModel& model, MonoTime now) const;
   void note_input(MonoTime now) { pace_.note_input(now); }
   // Releases all OpenGL objects, before their context ends or shows a dance.
   void release(LobbyModel& model);

@@ -1,4 +1,4 @@
-// An invitation for people: one HTML page as a file, and the same as a message. The page has no
+// An invitation that a guest can read: as one HTML page, and as a text message. The page has no
 // script, and a browser loads nothing else for it.
 //
 // Threads:      any.

@@ -105,13 +105,13 @@ void DanceShelf::apply(LobbyModel& model, LobbyWish wish) {
   }
 }
 
-// dance-view has the timeline; its measurements are hidden.
+// dance-view has the timeline.
 void DanceShelf::watch(LobbyModel& model) {
   const RecordedDance* dance = model.shelf.find_chosen();
   if (dance == nullptr) return;
   viewer_.reset();  // one at a time
   const std::string language(kLanguages[static_cast<std::size_t>(model.texts.language())].code);
-  auto started = ChildWords::start("dance-view", {"--no-hud", "--language", language, "--place",
+  auto started = ChildWords::start("dance-view", {"--language", language, "--place",
                                                   model.settings.window.place, "--", dance->path});
   if (!started) return model.tell(error_banner(Text::kLobbyNotShown, {}, started.error().what));
   viewer_ = std::move(*started);
@@ -122,7 +122,8 @@ void DanceShelf::make_video(LobbyModel& model) {
   if (dance == nullptr || export_) return;
   const std::string file = name_for_export(dance->path, ".mp4");
   std::vector<std::string> words{"--export", file, "--place", model.settings.window.place};
-  // The processor draws one minute of dance in about two minutes so, and else in ten.
+  // Without a graphics card a minute of dance takes about two minutes to draw with these options,
+  // and ten without them.
   if (!model.shelf.has_graphics_card)
     words.insert(words.end(), {"--quality", "low", "--size", "960x540"});
   words.insert(words.end(), {"--", dance->path});
@@ -136,7 +137,7 @@ void DanceShelf::export_as(LobbyModel& model, const std::string& ending) {
   if (ending == ".bvh" && dance->guests.size() > 1) {
     for (const std::string& guest : dance->guests) {
       const std::string file = name_for_export(dance->path, "-" + guest + ending);
-      // A recorded name may begin with '-': it must not be taken for an option.
+      // A recorded name may begin with '-'; it must not be parsed as an option.
       jobs_.push_back({"dance-convert", {"--guest=" + guest, "--", dance->path, file}, file});
     }
   } else {

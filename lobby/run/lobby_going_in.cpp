@@ -1,4 +1,5 @@
-// Starts a dance from the window: reports what would prevent it, then starts the house.
+// Starts a dance from the window: reports what would prevent it, then starts the house. Takes over
+// what was changed during the dance.
 #include <utility>
 
 #include "core/net/mono_clock.h"
@@ -67,6 +68,17 @@ void LobbyRun::go_in(LobbyWish wish) {
   house_for_ = wish == LobbyWish::kWatchRoom ? LobbyWish::kJoin : wish;
   going_since_ = mono_now();
   model_.is_going_in = true;
+}
+
+// The dance panel saves into the same file.
+void LobbyRun::take_choices_of_dance() {
+  if (!saved_) return;
+  const auto opened = file_.open();
+  if (!opened || opened->is_new) return;
+  note_saved(opened->trouble, opened->kept_as);
+  if (!opened->kept_as.empty()) return saved_.reset();
+  model_.take_changes(*saved_, opened->settings);
+  saved_ = opened->settings;
 }
 
 }  // namespace dance

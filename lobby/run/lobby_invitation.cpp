@@ -30,8 +30,8 @@ JoinRequest request_of(const Invitation& invitation, bool speaks, bool watches) 
 
 }  // namespace
 
-// The lobby uses no part of an invitation, and does not ask its server, before the user confirms.
-// This house file's rooms need no second question.
+// Until the user confirms, the lobby uses no part of an invitation and does not contact its server.
+// Rooms that this house file already names are joined without a question.
 void LobbyRun::open_invitation_typed() {
   model_.banners.clear();
   const auto invitation = parse_invitation(model_.invitation_typed);
@@ -47,8 +47,8 @@ void LobbyRun::open_invitation_typed() {
   seen_.stop(model_);
 }
 
-// The key that was kept when the invitation was opened is the server's identity: a room of the same
-// name on another server is another room.
+// The server key that was saved when the invitation was opened identifies the server: a room of the
+// same name on another server is another room.
 bool LobbyRun::has_joined(const Invitation& invitation) const {
   const auto& rooms = model_.settings.window.rooms;
   return model_.settings.name == invitation.guest.view() &&
@@ -95,7 +95,7 @@ bool LobbyRun::look_at_invitation() {
   }
   const Invitation& invitation = opener_->invitation();
   model_.invitation_typed.clear();
-  // The key is for that name.
+  // The key belongs to that name.
   trial_->name = std::string(invitation.guest.view());
   trial_->source =
       invitation.role == KeyKind::kListener ? DancerSource::kWatch : model_.settings.source;

@@ -97,7 +97,7 @@ Result<void> LobbyRun::make_painter() {
   return {};
 }
 
-// Both own OpenGL objects, which must go before the context ends or shows a dance.
+// Both painters own OpenGL objects, to be released before the context ends or shows a dance.
 void LobbyRun::release_painters() {
   if (figures_) figures_->release(model_);
   painter_.reset();
@@ -112,18 +112,18 @@ Result<void> LobbyRun::run() {
 Result<void> LobbyRun::turn() { return stage_ ? turn_of_dance() : turn_of_lobby(); }
 
 // How long nothing may happen.
-Duration LobbyRun::patience(MonoTime now) const {
+Duration LobbyRun::longest_wait(MonoTime now) const {
   if (fresh_frames_ > 0) return std::max(Duration(), kFastestFrame - (now - drawn_));
   const bool is_opening = model_.host.state == HostFacts::State::kOpening;
   const bool is_busy = model_.is_going_in || is_opening || seen_.is_busy() || shelf_.is_busy();
   const Duration longest = is_busy ? kBusy : kIdle;
   if (window_->framebuffer_size().width_px <= 0) return longest;  // minimised: no dancers either
-  return std::min(longest, figures_->patience(model_, now).value_or(kIdle));
+  return std::min(longest, figures_->time_until_due(model_, now).value_or(kIdle));
 }
 
 Result<void> LobbyRun::turn_of_lobby() {
   window_->poll_events();
-  window_->wait_for_events(patience(mono_now()));
+  window_->wait_for_events(longest_wait(mono_now()));
   poller_->run_once(Duration());
   if (window_->is_over() || poller_->is_stopped()) {
     save();
@@ -356,6 +356,7 @@ Result<void> LobbyRun::end_dance() {
   const bool has_signal = source_->is_over();
   // A place that was chosen by key during the dance stays for the next one.
   model_.settings.window.place = name_of(stage_->state().place);
+  take_choices_of_dance();
   window_ = WindowRun::close(std::move(stage_));
   stage_.reset();
   source_.reset();

@@ -68,21 +68,22 @@ class LobbyRun {
   std::optional<LobbyBanner> find_start_error(LobbyWish wish);
   std::optional<std::string> house_file();
   void keep_trial();
-  // Those that the house was started with.
+  // The settings that the house was started with.
   const LobbySettings& house_settings() const { return trial_ ? *trial_ : model_.settings; }
   bool has_house_ended();
   void stop_house();
   Result<void> begin_dance();
   Result<void> turn_of_dance();
   Result<void> end_dance();
+  void take_choices_of_dance();
   void save();
   void note_saved(const std::string& trouble, const std::string& kept_as);
-  Duration patience(MonoTime now) const;
+  Duration longest_wait(MonoTime now) const;
 
   SettingsFile file_;
   std::optional<LobbySettings> saved_;  // not set: nothing stands in the file
   LobbyModel model_;
-  std::optional<Invitation> invitation_;  // that model_.join_request asks about
+  std::optional<Invitation> invitation_;  // the one that model_.join_request asks about
   MonoTime asked_;                        // when the question appeared
   // Settings of an invitation: saved as the model's when the server has admitted the house.
   std::optional<LobbySettings> trial_;

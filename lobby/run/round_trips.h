@@ -3,7 +3,7 @@
 // there to be taken before the next one has answered.
 //
 // Units/frames: round trips of UDP, the shortest of three.
-// Ownership:    owns its thread; the destructor waits for it, a name server's patience at most.
+// Ownership:    owns its thread; the destructor waits for it, a name server's timeout at most.
 // Threads:      ask(), take() and is_busy() on the drawing thread.
 // Failure:      a server that does not answer, or whose name is not known, has no round trip; who
 //               is in a room is told with a key for it alone.

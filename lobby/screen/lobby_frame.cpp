@@ -116,8 +116,8 @@ void draw_content(LobbyModel& model, LobbyKit& kit, float width_px, float height
 }
 
 // Over all the rest, in the middle.
-bool begin_sheet(LobbyKit& kit, const char* id, float width_px, float height_px, float wide_u,
-                 float high_u) {
+bool begin_dialog(LobbyKit& kit, const char* id, float width_px, float height_px, float wide_u,
+                  float high_u) {
   ImGui::OpenPopup(id);
   const ImVec2 size(std::min(kit.px(wide_u), 0.94f * width_px),
                     std::min(kit.px(high_u), 0.92f * height_px));
@@ -134,7 +134,7 @@ bool begin_sheet(LobbyKit& kit, const char* id, float width_px, float height_px,
 }
 
 void draw_going_in(LobbyModel& model, LobbyKit& kit, float width_px, float height_px) {
-  if (!begin_sheet(kit, "going in", width_px, height_px, 420.0f, 210.0f)) return;
+  if (!begin_dialog(kit, "going in", width_px, height_px, 420.0f, 210.0f)) return;
   kit.title(model.texts[Text::kLobbyGoingIn]);
   kit.note(model.texts[Text::kLobbyGoingInNote]);
   kit.gap(8.0f);
@@ -151,7 +151,7 @@ void draw_join_request(LobbyModel& model, LobbyKit& kit, float width_px, float h
   const std::size_t letters = request.room.size() + request.server.size() + request.guest.size();
   const float high_u =
       (request.has_new_key ? 390.0f : 330.0f) + 20.0f * static_cast<float>(letters / 30);
-  if (!begin_sheet(kit, "join request", width_px, height_px, 560.0f, high_u)) return;
+  if (!begin_dialog(kit, "join request", width_px, height_px, 560.0f, high_u)) return;
   const Texts& t = model.texts;
   kit.title(t[Text::kLobbyInvitation]);
   kit.gap(2.0f);
@@ -214,7 +214,7 @@ void draw_lobby(LobbyModel& model, LobbyKit& kit, float width_px, float height_p
   } else if (model.join_request) {
     draw_join_request(model, kit, width_px, height_px);
   } else if (model.chooser.is_open()) {
-    if (begin_sheet(kit, "choose", width_px, height_px, 720.0f, 620.0f)) {
+    if (begin_dialog(kit, "choose", width_px, height_px, 720.0f, 620.0f)) {
       draw_file_chooser(model, kit);
       ImGui::EndPopup();
     }

@@ -83,8 +83,8 @@ class LobbyKit {
 
   float room_px() const;  // from here to the right edge of the card
   const LobbyFonts& fonts() const { return fonts_; }
-  // Plain text of a text, because names of files and devices come from outside. An ellipsis in the
-  // middle shortens it to that width in the current font.
+  // Makes the text plain, because names of files and devices come from outside, and shortens it to
+  // that width in the current font, with an ellipsis in the middle.
   static std::string shortened(const std::string& full_text, float width_px);
 
  private:

@@ -12,7 +12,7 @@ namespace {
 constexpr float kRounding_u = 10.0f;
 constexpr float kSwatch_u = 26.0f, kSwatchGap_u = 6.0f, kSwatchRow_u = 44.0f;
 constexpr ImU32 kNoPicture = IM_COL32(46, 49, 61, 255);
-constexpr ImU32 kPictureInk = IM_COL32(241, 240, 235, 255),
+constexpr ImU32 kPictureText = IM_COL32(241, 240, 235, 255),
                 kPictureAccent = IM_COL32(255, 139, 102, 255);
 // The page's background (kBackground in lobby_kit.cpp), opaque and clear.
 constexpr ImU32 kPageColour = IM_COL32(19, 21, 27, 255), kPageClear = IM_COL32(19, 21, 27, 0);
@@ -49,14 +49,14 @@ bool LobbyKit::picture_choice(const char* id, void* texture, const std::string& 
   ImDrawList* list = ImGui::GetWindowDrawList();
   add_picture(*list, texture, low, high, px(kRounding_u));
   if (is_chosen || is_lit)
-    list->AddRect(low, high, is_chosen ? kPictureAccent : kPictureInk, px(kRounding_u), 0,
+    list->AddRect(low, high, is_chosen ? kPictureAccent : kPictureText, px(kRounding_u), 0,
                   px(3.0f));
   ImGui::PushFont(fonts_.small);
   const std::string shown = shortened(words, width);
   const float left = low.x + 0.5f * (width - ImGui::CalcTextSize(shown.c_str()).x);
   ImGui::PopFont();
   list->AddText(fonts_.small, small, {std::round(left), std::round(high.y + px(5.0f))},
-                is_chosen ? kPictureAccent : kPictureInk, shown.c_str());
+                is_chosen ? kPictureAccent : kPictureText, shown.c_str());
   return is_pressed;
 }
 
@@ -74,7 +74,7 @@ bool LobbyKit::swatch(const char* id, std::uint32_t rgb, bool is_chosen) {
                       px(6.0f));
   if (is_chosen || is_lit)
     list->AddRect({low.x - px(3.0f), low.y - px(3.0f)}, {high.x + px(3.0f), high.y + px(3.0f)},
-                  is_chosen ? kPictureAccent : kPictureInk, px(8.0f), 0, px(2.0f));
+                  is_chosen ? kPictureAccent : kPictureText, px(8.0f), 0, px(2.0f));
   const float edge = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
   if (high.x + px(2.0f * kSwatchGap_u) + side < edge) ImGui::SameLine(0.0f, px(kSwatchGap_u));
   return is_pressed;

@@ -69,6 +69,22 @@ void LobbyModel::take(const LobbySettings& from) {
   texts = Texts(parse_language(settings.window.language).value_or(language_of_user()));
 }
 
+void LobbyModel::take_changes(const LobbySettings& before, const LobbySettings& after) {
+  const auto take = [&](auto field) {
+    if (before.*field != after.*field) settings.*field = after.*field;
+  };
+  take(&LobbySettings::shown_name);
+  take(&LobbySettings::avatar);
+  take(&LobbySettings::look);
+  take(&LobbySettings::colour);
+  take(&LobbySettings::figure_height);
+  take(&LobbySettings::speaks);
+  take(&LobbySettings::has_headphones);
+  take(&LobbySettings::microphone);
+  take(&LobbySettings::loudspeaker);
+  name_typed = shown_name();
+}
+
 void LobbyModel::show(LobbyScreen to) {
   screen = to;
   is_at_top = true;

@@ -158,7 +158,7 @@ struct HostFacts {
   std::string router_address;     // its internet address; "" until it is known
   bool was_reached = false;       // from another network
   std::string invitation;         // the last one
-  std::string invited_guest;      // whom it is for
+  std::string invited_guest;      // the guest it is for
   bool is_for_home_only = false;  // its address works in this network only
   std::string page;               // the file of its page; "" = not saved
   InvitationCode code;            // its QR code; size 0 = none
@@ -194,7 +194,7 @@ struct JoinRequest {
   std::string guest;
   bool speaks = false;        // with the microphone on
   bool watches_only = false;  // an invitation for listeners: sends nothing
-  bool has_new_key = false;   // the server's key is another one than this house knows
+  bool has_new_key = false;   // the server's key differs from the one that this house has saved
 };
 
 struct LobbyModel {
@@ -238,6 +238,8 @@ struct LobbyModel {
 
   // Takes settings over into what is typed.
   void take(const LobbySettings& settings);
+  // Takes what the dance panel saved during a dance: those of its settings that differ.
+  void take_changes(const LobbySettings& before, const LobbySettings& after);
   void show(LobbyScreen to);
   // The newest comes first; of more than kMostBanners the oldest goes, of the same one stays.
   void tell(LobbyBanner banner);

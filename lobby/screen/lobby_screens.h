@@ -1,5 +1,5 @@
-// The window's screens, drawn with Dear ImGui from a LobbyModel: which guest, with whom, a room of
-// one's own, and the recordings. They change the model's settings and note what is asked for; they
+// The window's screens, drawn with Dear ImGui from a LobbyModel: the user, with whom to dance, the
+// user's own room, and the recordings. They change the model's settings and set its request; they
 // do nothing else.
 //
 // Units/frames: pixels.

@@ -44,7 +44,7 @@ class SettingsFile {
 
  private:
   std::string trial_path() const;
-  // The file's text with these settings; `text` is what lies there, "" where nothing does.
+  // The file's text with these settings; `text` is its present text, "" if there is no file.
   Result<std::string> edited(std::string text, const LobbySettings& settings) const;
   // Renames what lies there; the new name.
   Result<std::string> keep_aside() const;

@@ -23,7 +23,7 @@ bool is_there(const std::string& path) {
   return fs::symlink_status(path, error).type() != fs::file_type::not_found;
 }
 
-// Recordings and other files that are read of one folder.
+// The most entries of one folder that are looked at, recordings and other files.
 constexpr int kMostEntries = 20'000;
 
 std::string stem_of(const std::string& path) {

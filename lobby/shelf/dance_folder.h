@@ -22,8 +22,8 @@ constexpr std::size_t kMostDanceName_bytes = 80;
 std::vector<RecordedDance> dances_in(const std::vector<std::string>& folders);
 void sort_newest_first(std::vector<RecordedDance>& dances);
 
-// Whether a recording may have this name: it is visible text of bounded length, names a file of the
-// same folder, and that file is not hidden.
+// True if a recording may have this name: visible text of bounded length that names a file in the
+// same folder, and not a hidden one.
 bool is_dance_name(std::string_view name);
 // Gives the file that name, with the ending .lcm, and returns its new path.
 Result<std::string> rename_dance(const std::string& path, const std::string& name);

@@ -1,4 +1,4 @@
-// RecordedDance: a recording as the list of them shows it: when, how long, who danced, which song.
+// RecordedDance: the facts about a recording that the list shows: time, length, guests and song.
 //
 // Units/frames: microseconds of the wall clock since 1970.
 // Threads:      read_dance() takes as long as the disk for at most kMostRead_bytes.

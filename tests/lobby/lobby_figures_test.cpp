@@ -158,7 +158,7 @@ TEST_F(LobbyFiguresTest, AnUnreadableFileIsReportedAndOtherFiguresAreShown) {
 
 TEST_F(LobbyFiguresTest, DrawsNothingBeforeItIsDueOrWhileGoingIn) {
   model_.screen = LobbyScreen::kHost;
-  EXPECT_FALSE(figures_.patience(model_, now_));
+  EXPECT_FALSE(figures_.time_until_due(model_, now_));
   EXPECT_FALSE(figures_.step(model_, 1.0f, now_));
   model_.screen = LobbyScreen::kDance;
   ASSERT_TRUE(step_until([&] { return model_.figures.couple_texture != nullptr; }));
