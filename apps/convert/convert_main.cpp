@@ -77,10 +77,11 @@ int main(int argc, char** argv) {
   line.add_choice<double>(
       "--unit", options.conversion.retarget.metres_per_unit,
       {{"m", 1.0}, {"dm", 0.1}, {"cm", 0.01}, {"mm", 0.001}, {"ft", 0.3048}, {"in", 0.0254}},
-      "of a BVH or glTF, where its figure is not the size it should be: m, dm, cm, mm, ft, in");
-  line.add_choice<dance::UpAxis>(
-      "--up", options.conversion.retarget.up, {{"y", dance::UpAxis::kY}, {"z", dance::UpAxis::kZ}},
-      "axis of a BVH or glTF that points up: y or z; else a BVH's stance tells, and a glTF has y");
+      "of a BVH or glTF whose figure has the wrong size: m, dm, cm, mm, ft, in");
+  line.add_choice<dance::UpAxis>("--up", options.conversion.retarget.up,
+                                 {{"y", dance::UpAxis::kY}, {"z", dance::UpAxis::kZ}},
+                                 "axis of a BVH or glTF that points up: y or z; default: judged by "
+                                 "a BVH's stance, y of a glTF");
   line.add_flag("--json", options.json, "report as JSON on stdout");
   line.finally([&] { return dance::check_rate(options.conversion.hz); });
   line.footer(dance::kExamples);

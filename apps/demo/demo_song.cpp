@@ -8,7 +8,7 @@
 namespace dance {
 namespace {
 
-// The begin of a chorus: the whole band plays there, and without a break.
+// The first bar of a chorus: the whole band plays there, without a break.
 int first_chorus_bar(const BandScore& score) {
   for (const BandSection& section : score.sections())
     if (section.part == BandPartKind::kChorus) return section.first_bar;

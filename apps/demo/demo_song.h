@@ -1,4 +1,4 @@
-// The music of a demo that was given none: eight bars of the house band's salsa, on the band's own
+// The music of a demo without --music: eight bars of the house band's salsa, on the band's own
 // percussion, with the list of their beats beside them.
 //
 // Units/frames: a beat is what dancers count, eight of them to the clave; the file begins with the

@@ -28,7 +28,7 @@ using Grade = Finding::Grade;
 
 namespace {
 
-// Whether readers of avatars, songs and videos can be confined here.
+// Checks whether readers of avatars, songs and videos can be confined here.
 Finding check_confinement() {
   bool is_on = false;
   std::thread([&] { is_on = confine_thread(); }).join();

@@ -164,8 +164,8 @@ Finding check_names(const ResolverAnswer& lookup, bool has_nameserver) {
       finding.grade = Grade::kOk;
       break;
     case Outcome::kUnknown:
-      finding.what =
-          is_real ? "nobody knows the server's name " + name : "the nameserver answers in " + took;
+      finding.what = is_real ? "no nameserver has the server's name " + name
+                             : "the nameserver answers in " + took;
       if (!is_real) finding.grade = Grade::kOk;
       if (is_real)
         finding.cure = "getent hosts " + printable(lookup.name) + "   (is it spelt right?)";

@@ -2,7 +2,7 @@
 // names, and the addresses of the servers that run here.
 //
 // Threads:   call from main; waits some seconds at most. Nothing is sent but the lookup of a name.
-// Failure:   a check that cannot look leaves its finding out.
+// Failure:   a check that cannot read the system's state returns no finding.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@ namespace dance {
 
 Finding check_loopback(const Loopback& loopback);
 
-// Whether a device is a tunnel's: WireGuard, OpenVPN and others. `devices` is /sys/class/net.
+// True if a device belongs to a tunnel: WireGuard, OpenVPN and others.
 bool is_vpn_device(const std::string& device, const std::string& devices = "/sys/class/net");
 // Judges the device of the default route; "" means no route.
 Finding check_internet_route(const std::string& device, bool is_vpn);
-// The same where a route forbids it.
+// The finding if a route forbids the internet.
 Finding check_forbidden_route();
 
-// Judges ::1, at which programs of others may send to this machine's.
+// Judges ::1, to which programs of others may send.
 Finding check_ipv6_loopback(bool has_address);
 
 // The ports at which `dance receive` waits for other programs, with their protocols.
@@ -36,14 +36,14 @@ std::vector<InputPort> usual_input_ports();
 // Judges those that are taken.
 Finding check_input_ports(const std::vector<InputPort>& taken);
 
-// The host of a session file's `server` where that is a name: "" for an address, or for none.
+// The host name in a session file's `server`; "" if it is an address or empty.
 std::string host_name_of(const std::string& server);
 
 // Judges a lookup of the server's name, or of one that no nameserver knows (kNoSuchName).
 constexpr const char* kNoSuchName = "dancegraph.invalid";
 Finding check_names(const ResolverAnswer& lookup, bool has_nameserver);
 
-// A server of this machine, at its address as `dance status` shows it.
+// Judges the address of a server on this machine, as `dance status` shows it.
 Finding check_server_reach(const std::string& address, const std::vector<std::string>& machine);
 
 std::vector<Finding> examine_network();

@@ -52,8 +52,8 @@ Finding finding_of(const SoundFailure& failure) {
           "export PULSE_COOKIE=FILE   (that of the server's user: ~/.config/pulse/cookie)";
       break;
     case SoundTrouble::kHangs:
-      finding.what =
-          "the sound server at " + failure.socket + " hangs: it accepts us and does not answer";
+      finding.what = "the sound server at " + failure.socket +
+                     " hangs: it accepts the connection and does not answer";
       finding.cure = failure.installed_server == "pipewire-pulse"
                          ? "systemctl --user restart pipewire pipewire-pulse"
                          : "pulseaudio --kill; pulseaudio --start";

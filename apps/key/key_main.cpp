@@ -16,13 +16,13 @@ namespace dance {
 namespace {
 
 constexpr const char* kExamples = R"(Examples:
-  dance key                            asks for the line that the server's keeper gave you:
+  dance key                            asks for the line that the server's operator gave you:
                                        a key, or an invitation, which it opens
   dance key < line.txt                 takes it from a file
   dance key --list                     which servers let you in, and as whom
-  dance key --public                   prints this house's public key, for a server's keeper
+  dance key --public                   prints this house's public key, for the operator of a server
   dance key --trust dance.example.org=A7…
-                                       trusts a new key of a server, which its keeper confirmed
+                                       trusts a new key of a server, which its operator confirmed
   dance key --remove alice@dance.example.org:7400
 )";
 
@@ -64,7 +64,7 @@ Result<void> trust_server(const std::string& given, const std::string& path) {
       mark == std::string::npos ? std::nullopt : PublicKey::parse(given.substr(mark + 1));
   if (!key || !key->is_on_curve())
     return fail(
-        "--trust takes SERVER=KEY, with the 44 characters that the server's keeper reads in "
+        "--trust takes SERVER=KEY, with the 44 characters that the server's operator reads in "
         "dance server --list-keys");
   const std::string server = given.substr(0, mark);
   DANCE_TRY(const FileLock lock, FileLock::of_folder(path));
@@ -132,9 +132,9 @@ Result<void> run_key(const KeyOptions& options) {
   }
   if (const HouseKey* known = keys.find_other(key.server, key.server_key))
     return fail("the line names another key of " + key.server +
-                " than the one that this house knows (" + known->server_key.text() +
-                "). If its keeper confirms the new one, run: dance key " + "--trust " + key.server +
-                "=" + key.server_key.text() + ", and paste the line again");
+                " than the one that this house has saved (" + known->server_key.text() +
+                "). If its operator confirms the new one, run: dance key " + "--trust " +
+                key.server + "=" + key.server_key.text() + ", and paste the line again");
   keys.put(key);
   if (auto written = write_secret(path, keys.text()); !written) return written;
   const std::string room = key.room.is_set() ? " --room " + std::string(key.room.view()) : "";
@@ -155,7 +155,7 @@ int main(int argc, char** argv) {
   line.add_flag("--list", options.list, "whose keys there are, without the keys");
   line.add("--remove", options.remove, "takes one away, named as --list does");
   line.add("--trust", options.trust,
-           "SERVER=KEY: trusts another key of a server, after its keeper confirmed it");
+           "SERVER=KEY: trusts another key of a server, after its operator confirmed it");
   line.add_flag("--public", options.shows_public,
                 "prints this house's public key, which is no secret");
   line.add("--file", options.file,

@@ -36,7 +36,7 @@ struct FrameLoop {
   Durations read_again;       // the same at once again, when all is in the processor's caches
   Durations read_newest;      // all dancers as they came
   Durations copied;           // as many bytes, copied
-  Durations drained;          // the same dancers heard over a hop of the bus
+  Durations drained;          // the same dancers received over a hop of the bus
   Durations age_late;         // at their use, asked for then
   Durations age_early;        // at their use, asked for when the frame began
   Durations age_other_early;  // the same from the hop of the bus
@@ -52,7 +52,7 @@ struct Spin {
 struct BenchAdapterResult {
   Spin memory;               // from the write, with nothing else running
   Spin house;                // from the stage of the house, another process, with all running
-  Durations capture_to_lcm;  // heard by another program over a further hop of the bus
+  Durations capture_to_lcm;  // received by another program over a further hop of the bus
   std::vector<FrameLoop> loops;
   std::uint64_t reads = 0;
   std::uint64_t torn = 0;

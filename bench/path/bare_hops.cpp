@@ -53,7 +53,7 @@ ip_mreqn on_loopback() {
   return membership;
 }
 
-// Each datagram of one socket to the other.
+// Forwards each datagram of one socket to the other.
 Error forward(int in, int out) {
   if (in < 0 || out < 0) return {reason("bare hop's socket")};
   std::array<std::uint8_t, kMaxDatagram> datagram;

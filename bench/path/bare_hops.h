@@ -4,7 +4,7 @@
 //
 // Ownership: a hop runs until a signal ends its process; descriptors are the caller's.
 // Threads:   the caller's (and LCM's own).
-// Failure:   a hop returns only when something is wrong, with what it was.
+// Failure:   a hop returns only after an error, and returns that error.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@
 
 namespace dance {
 
-// Each message of `channel` on the bus as one datagram to 127.0.0.1:to_port.
+// Forwards each message of `channel` on the bus as one datagram to 127.0.0.1:to_port.
 Error forward_bus_to_udp(const std::string& bus_url, const std::string& channel,
                          std::uint16_t to_port);
-// Each datagram on 127.0.0.1:from_port to 127.0.0.1:to_port.
+// Forwards each datagram on 127.0.0.1:from_port to 127.0.0.1:to_port.
 Error forward_udp_to_udp(std::uint16_t from_port, std::uint16_t to_port);
-// Each datagram on 127.0.0.1:from_port as a message of `channel` on the bus.
+// Forwards each datagram on 127.0.0.1:from_port as a message of `channel` on the bus.
 Error forward_udp_to_bus(std::uint16_t from_port, const std::string& bus_url,
                          const std::string& channel);
 
@@ -27,8 +27,8 @@ Error forward_udp_to_bus(std::uint16_t from_port, const std::string& bus_url,
 Error forward_group_to_udp(std::uint16_t group_port, std::uint16_t to_port);
 Error forward_udp_to_group(std::uint16_t from_port, std::uint16_t group_port);
 
-// Sockets of that group: one that receives what is sent to the port, one that is connected to it.
-// Negative where the kernel refuses; errno says why.
+// Open sockets of that group: one that receives at the port, one that sends to it. Negative if the
+// kernel refuses; errno has the reason.
 int open_group_receiver(std::uint16_t port);
 int open_group_sender(std::uint16_t port);
 

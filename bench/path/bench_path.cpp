@@ -162,7 +162,7 @@ void BenchPath::listen() {
                             if (pose_way_.is_measuring()) steps_.heard(pose, now, this_clock_id());
                           });
   poller_->watch(bus_b_->fd(), [this](MonoTime now) { bus_b_->drain(now); });
-  // Decoded on every way, as receiving a pose includes it.
+  // Poses are decoded on every path, as decoding is part of receiving them.
   const auto decode_for = [](Way& way, const void* data, std::size_t size) {
     Pose pose;
     if (decode(data, size, pose) == Decoded::kFine) way.arrived(pose.sequence, mono_now());
@@ -218,7 +218,7 @@ void BenchPath::send_raw_floor() {
   [[maybe_unused]] const auto sent = ::send(raw_a_, buffer.data(), size, 0);
 }
 
-// Turn about, a third of a period apart, so that no way meets another's messages.
+// The three paths send in turn, a third of a period apart, so that their messages do not meet.
 void BenchPath::start_sending() {
   const MonoTime begin = mono_now() + Duration::ms(10);
   const auto every_period = [&](double offset, void (BenchPath::*send_one)()) {

@@ -30,7 +30,7 @@ struct BenchPathOptions {
   double flood_hz = 0.0;  // hostile datagrams a second; 0: none
 };
 
-// Results of one of the measured ways.
+// Results of one of the measured paths.
 struct WayResult {
   std::uint64_t sent = 0;
   std::vector<Duration> took;  // of each that was delivered, sorted

@@ -52,7 +52,7 @@ Error flood_buses(std::span<const std::uint16_t> ports, double rate_hz) {
     const double due = rate_hz * (mono_now() - begin).as_seconds();
     while (number < due) {
       const std::string datagram = hostile_datagram(number, random);
-      // One that the kernel refuses is none.
+      // A datagram that the kernel refuses is not sent again.
       [[maybe_unused]] const auto sent =
           send(sockets[number / 6 % sockets.size()], datagram.data(), datagram.size(), 0);
       ++number;

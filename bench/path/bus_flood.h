@@ -2,7 +2,7 @@
 // wrapping offsets, datagrams without a NUL, noise, made-up channels, and garbage on pose channels.
 //
 // Ownership: runs until a signal ends its process.
-// Failure:   returns only when something is wrong, with what it was.
+// Failure:   returns only after an error, and returns that error.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
-// The ways that BenchPath compares: the messages and times of one, and the ends of the one that
-// LCM's library carries.
+// The paths that BenchPath compares: Way counts and times the messages of one path. LcmEnd is one
+// end of the path over LCM's library.
 //
-// Failure: LcmEnd::is_open() is false where LCM opens no bus.
+// Failure: LcmEnd::is_open() is false if LCM cannot open the bus.
 #pragma once
 
 #include <lcm/lcm.h>
@@ -17,8 +17,9 @@
 
 namespace dance {
 
-// One way from a bus to another: counts what is sent and times what arrives. Messages are numbered.
-// Each counts for the stretch of the run in which it was sent: with or without a flood, or neither.
+// One path from a bus to another: counts the messages that are sent and times those that arrive.
+// Messages are numbered. Each counts for the stretch of the run in which it was sent: quiet,
+// flooded or none.
 class Way {
  public:
   enum class Stretch : std::uint8_t { kNone, kQuiet, kFlooded };

@@ -1,4 +1,4 @@
-// dance-bench-flood: what a flood takes from a couple that dances, and from newcomers.
+// dance-bench-flood: the cost of a flood for a couple that dances, and for newcomers.
 
 #include <cstdio>
 
@@ -68,7 +68,7 @@ Result<void> run_flood(const Options& options) {
 int main(int argc, char** argv) {
   dance::Options options;
   dance::CommandLine line(
-      "What a flood of hostile datagrams takes from a couple that dances, and from newcomers.",
+      "Measures what a flood of hostile datagrams costs a dancing couple, and newcomers.",
       "dance bench flood");
   line.add_choice<dance::Part>(
       "--only", options.part,
@@ -101,7 +101,7 @@ int main(int argc, char** argv) {
       .range(1.0, 100'000.0)
       .shows_default();
   line.add("--network-bits", options.newcomers.network_bits,
-           "they come from 2 to the power of this IPv6 /64s: 8 = a /56, 16 = a /48")
+           "the attacker's IPv6 network has 2 to the power of this /64s: 8 = a /56, 16 = a /48")
       .range(0, 16)
       .shows_default();
   line.add_flag("--json", options.is_json, "JSON instead of tables, one line for each part");

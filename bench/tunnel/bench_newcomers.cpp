@@ -118,7 +118,7 @@ class BenchNewcomers {
     return LinkKey::of(key, PrivateKey::make());
   }
 
-  // Returns when it receives.
+  // Returns when the server is ready to receive.
   Result<void> start_server() {
     const std::string talk = scratch_->file("talk-" + std::to_string(servers_++));
     DANCE_TRY(ChildProcess server,
@@ -158,7 +158,7 @@ class BenchNewcomers {
     return is_so();
   }
 
-  // One after the other, each from a network that the server does not know.
+  // Lets newcomers join one after the other, each from a network that is new to the server.
   Result<void> newcomers(
       const char* name, std::size_t count,
       const std::function<bool()>& is_over = [] { return false; }) {

@@ -5,7 +5,7 @@
 // Each newcomer and each guest has an IPv4 network of its own. Needs a private network
 // (enter_private_network()), in which it adds local routes.
 //
-// Failure: run_bench_newcomers() names what could not start; who did not come in is counted.
+// Failure: run_bench_newcomers() names what could not start; guests who did not get in are counted.
 #pragma once
 
 #include <string>
@@ -18,10 +18,10 @@
 namespace dance {
 
 struct BenchNewcomersOptions {
-  std::size_t newcomers = 40;  // of each phase, one after the other
-  std::size_t guests = 300;    // that return after the restart
+  std::size_t newcomers = 40;  // in each phase, one after the other
+  std::size_t guests = 300;    // who return after the restart
   double hellos_per_second = 3000.0;
-  int network_bits = 16;  // the flood comes from 2^this IPv6 /64s
+  int network_bits = 16;  // the flood comes from 2 to the power of this IPv6 /64s
 };
 
 struct NewcomerTimes {

@@ -121,7 +121,8 @@ TEST(Doctor, TellsWhyThereIsNoSoundAndTheCureOfEach) {
   failure.is_named = true;
   expect(SoundTrouble::kNoServer, "nobody is at", "unset PULSE_SERVER");
   expect(SoundTrouble::kNotYours, "another user's", "stat -c %U /run/user/1000/pulse/native");
-  expect(SoundTrouble::kHangs, "hangs: it accepts us and does not answer", "pulseaudio --kill");
+  expect(SoundTrouble::kHangs, "hangs: it accepts the connection and does not answer",
+         "pulseaudio --kill");
   failure.installed_server = "pipewire-pulse";
   expect(SoundTrouble::kHangs, "hangs", "systemctl --user restart pipewire pipewire-pulse");
   expect(SoundTrouble::kRefused, "does not let us in", "PULSE_COOKIE");
