@@ -122,7 +122,7 @@ dance_optional(DANCE_MUSIC "Music" DANCE_HAVE_MUSIC "${SNDFILE_FOUND}" "libsndfi
 pkg_check_modules(FFMPEG QUIET IMPORTED_TARGET libavformat>=59.27 libavcodec libavutil libswresample libswscale)
 dance_optional(DANCE_FFMPEG "Media with FFmpeg" DANCE_HAVE_FFMPEG "${FFMPEG_FOUND}"
   "libavformat-dev libavcodec-dev libavutil-dev libswresample-dev libswscale-dev")
-# The house band's instruments: in a module too (producers/music/band).
+# The house band's instruments; they are in a module of their own (producers/music/band).
 pkg_check_modules(FLUIDSYNTH QUIET IMPORTED_TARGET fluidsynth>=2.2)
 dance_optional(DANCE_FLUIDSYNTH "Band's soundfonts" DANCE_HAVE_FLUIDSYNTH "${FLUIDSYNTH_FOUND}" "libfluidsynth-dev timgm6mb-soundfont")
 pkg_check_modules(PULSE QUIET IMPORTED_TARGET libpulse)
@@ -212,7 +212,7 @@ dance_optional(DANCE_QR "QR codes" DANCE_HAVE_QR "${QRENCODE_FOUND}" "libqrencod
 pkg_check_modules(NATS QUIET IMPORTED_TARGET libnats)
 dance_optional(DANCE_NATS "Servers in clusters" DANCE_HAVE_NATS "${NATS_FOUND}" "libnats-dev")
 
-# Readers of strangers' files may do nothing but read.
+# Limits the threads that read strangers' files to reading (core/program/confinement.h).
 pkg_check_modules(SECCOMP QUIET IMPORTED_TARGET libseccomp)
 dance_optional(DANCE_SECCOMP "Confined readers" DANCE_HAVE_SECCOMP "${SECCOMP_FOUND}" "libseccomp-dev")
 

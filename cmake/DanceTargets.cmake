@@ -108,7 +108,7 @@ function(dance_use_pch target)
   if("GTest::gtest" IN_LIST libraries)
     set(pch dance_test_pch)
     set(more <gtest/gtest.h>)
-    # clang wants a precompiled header of the same optimisation.
+    # clang accepts a precompiled header only if it was made with the same optimisation.
     get_target_property(type ${target} TYPE)
     if(type STREQUAL "STATIC_LIBRARY")
       dance_use_test_options(${target})

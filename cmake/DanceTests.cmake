@@ -1,4 +1,4 @@
-# dance_test and dance_fuzz: what a folder of tests/ adds to the test programs of its top-level folder, and how CTest runs it.
+# dance_test and dance_fuzz add the tests of a folder to the test programs of its top-level folder, and register them with CTest.
 include_guard(GLOBAL)
 
 # The thread sanitizer is for thread_targets, tests in which threads meet, and for flow_targets, which start programs with
@@ -7,7 +7,7 @@ foreach(kind thread flow test long_test)
   add_custom_target(${kind}_targets)
 endforeach()
 
-# The top-level folder of tests/ that the calling CMakeLists.txt lies in.
+# Sets `result` to the top-level folder of tests/ that contains the calling CMakeLists.txt.
 function(dance_test_folder result)
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR}/tests ${CMAKE_CURRENT_SOURCE_DIR})
   string(REGEX REPLACE "/.*" "" folder ${folder})
@@ -18,15 +18,15 @@ endfunction()
 #   [TIMEOUT s] [PRELOAD x.so] [BESIDE_OTHERS KIND] [FLOODS] [THREADS] [EACH_TEST | WHOLE] [ALONE FOLDER]
 #   [LONG] [LONG_TESTS Suite.Test …] [UNSANITIZED Suite.Test …] [NO_TSAN Suite.Test …]): a group of GoogleTest sources.
 #
-# They become part of the program <folder>_tests of the top-level folder, or of <folder>_long_tests with LONG. ALONE: a program
-# of their own in tests/FOLDER.
+# The sources become part of the program <folder>_tests of the top-level folder, or of <folder>_long_tests with LONG. With ALONE
+# they become a program of their own in tests/FOLDER.
 #
 # By default CTest has one entry per suite. Flow groups and EACH_TEST have one entry per test: use EACH_TEST for tests that
 # change their process. WHOLE makes one entry for the group: use it where the shared set-up takes longer than the tests.
 # PRELOAD: the entries run with that library loaded before all others.
 #
-# A flow test runs in a network namespace of its own, and beside no other of its KIND (clients, sound, cluster …, or the usual
-# one). Flow tests have the ordinary priority and unit tests a low one, so that unit tests delay no program that dances.
+# A flow test runs in a network namespace of its own, and never beside another one of its KIND (clients, sound, cluster …; the
+# default is `flow`). Flow tests have the ordinary priority and unit tests a low one, so that unit tests delay no program that dances.
 # THREADS: a flow group with several threads in its own process, or in few programs. The thread sanitizer runs no other
 # flow groups: their programs are mostly one thread each, and building all of them under it takes minutes.
 # FLOODS: the tests use all processors for seconds, and run while no other test does.
@@ -39,7 +39,7 @@ function(dance_test name)
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "dance_test(${name}): unknown arguments: ${arg_UNPARSED_ARGUMENTS}")
   endif()
-  # What the program links for this group; add_dependencies and target_… (INTERFACE) take its name.
+  # This library holds what the program links for the group. add_dependencies and target_… (INTERFACE) accept its name.
   add_library(${name} INTERFACE)
   target_link_libraries(${name} INTERFACE ${arg_LIBS})
   if(DANCE_SANITIZE STREQUAL "thread" AND NOT arg_LABEL STREQUAL "threads" AND NOT arg_THREADS)
@@ -76,7 +76,7 @@ function(dance_test name)
   set_property(GLOBAL APPEND PROPERTY DANCE_SOURCES_OF_${program} ${sources})
   set_property(GLOBAL APPEND PROPERTY DANCE_TARGETS_OF_${program} ${targets})
 
-  # What CTest needs to know of the group, for dance_write_tests.
+  # The rest of this function describes the group for CTest; dance_write_tests writes it.
   # Flow tests mostly wait, so that many run at once; the others compute: CTest counts one of them as three.
   set(launcher "nice;-n;10")
   set(properties COST 0 PROCESSORS 3)
@@ -124,7 +124,7 @@ function(dance_test name)
     list(APPEND label long)
   endif()
   set_property(GLOBAL APPEND PROPERTY DANCE_LABELS_OF_${program} ${label})
-  # Programs of the tests make keys for this machine: not the keys of the user who runs the tests.
+  # Programs under test make keys for this machine; they must not use the keys of the user who runs the tests.
   list(APPEND properties TIMEOUT ${arg_TIMEOUT} ENVIRONMENT "XDG_CONFIG_HOME=${PROJECT_BINARY_DIR}/test-config")
   set(table "dance_group(${name} ${each} \"${label}\" \"${launcher}\" \"${properties}\" \"${arg_LONG_TESTS}\" \"${arg_UNSANITIZED}\"")
   # Names are relative, like __FILE__: -ffile-prefix-map removes the source folder.
@@ -150,7 +150,7 @@ function(dance_fuzz name)
   set_property(GLOBAL APPEND PROPERTY DANCE_SOURCES_OF_${folder}_fuzz ${sources})
   set_property(GLOBAL APPEND PROPERTY DANCE_LIBS_OF_${folder}_fuzz ${arg_LIBS})
   if(DANCE_FUZZ)
-    # libFuzzer adds what it finds: to a copy.
+    # libFuzzer writes new inputs into its corpus folder, so it gets a copy.
     file(COPY ${corpus}/ DESTINATION ${PROJECT_BINARY_DIR}/fuzz/corpus_${name})
     set_property(GLOBAL APPEND_STRING PROPERTY DANCE_FUZZ_LIST "${folder}_fuzz ${name}\n")
   else()
@@ -159,7 +159,7 @@ function(dance_fuzz name)
   endif()
 endfunction()
 
-# Makes the programs of all groups that were named, and the list by which CTest finds their tests. Called once, last.
+# Makes the programs of all groups, and the list by which CTest finds their tests. Call it once, at the end.
 function(dance_write_tests)
   add_library(dance_test_main OBJECT ${PROJECT_SOURCE_DIR}/tests/test_main.cpp)
   target_link_libraries(dance_test_main PRIVATE dance_settings GTest::gtest)

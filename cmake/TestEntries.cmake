@@ -1,7 +1,6 @@
-# Read by CTest when it starts: asks each test program for its tests, and makes their entries as the groups of
-# DanceTests.cmake say. A program of short
-# tests that is not built has an entry that fails. With DANCE_EACH_TEST=1 in the environment every test has an entry
-# of its own, named Suite.Test, so that -R and -E select single tests.
+# CTest reads this file when it starts. It asks each test program for its tests, and makes their entries by the groups of
+# DanceTests.cmake. A program of short tests that is not built gets an entry that fails. With DANCE_EACH_TEST=1 in the
+# environment every test has an entry of its own, named Suite.Test, so that -R and -E select single tests.
 cmake_policy(VERSION 3.25)
 
 # dance_group(NAME EACH LABELS LAUNCHER PROPERTIES LONG UNSANITIZED SOURCE…)
@@ -14,7 +13,7 @@ function(dance_group name each labels launcher properties long unsanitized)
   endforeach()
 endfunction()
 
-# Whether a name matches one of several regular expressions as a whole.
+# Sets `result` to TRUE if one of several regular expressions matches the whole name.
 function(dance_matches result name expressions)
   set(${result} FALSE PARENT_SCOPE)
   foreach(expression IN LISTS expressions)
@@ -24,7 +23,7 @@ function(dance_matches result name expressions)
   endforeach()
 endfunction()
 
-# An entry that fails and says why: what is wrong with the entries themselves must be seen.
+# Adds an entry that fails and prints the reason, so that errors in the entries themselves are seen.
 function(dance_add_failure name labels why)
   add_test(${name} sh -c "echo '${why}'; exit 1")
   set_tests_properties(${name} PROPERTIES LABELS "${labels}")
