@@ -44,7 +44,7 @@ inline std::string text_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Whether the file or folder is there and only its owner can read, write or enter it.
+// True if the file or folder exists and only its owner can read, write or enter it.
 inline bool is_private(const std::string& path) {
   using std::filesystem::perms;
   std::error_code missing;

@@ -10,7 +10,7 @@
 namespace dance {
 namespace {
 
-// Tests below this are not worth a line.
+// Faster tests get no line.
 constexpr double kSlow_s = 0.5;
 
 double seconds_of(const timeval& time) {

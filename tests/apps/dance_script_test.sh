@@ -84,7 +84,7 @@ echo "flock $*" >>"$calls"
 [ "$1" != -n ]
 END
 
-# What each machine begins with.
+# The part of the source tree that each machine begins with.
 fresh=$scratch/fresh
 mkdir -p "$fresh/producers/camera" "$fresh/tests" "$fresh/cmake"
 cp "$source_tree/dance" "$fresh/dance"

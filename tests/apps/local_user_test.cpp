@@ -1,5 +1,5 @@
 // Another user of the machine publishes on the bus of a house: captures of its guest, the removal
-// of another guest, and requests not to receive that guest. The house takes nothing of it.
+// of another guest, and requests not to receive that guest. The house accepts nothing of it.
 #include <unistd.h>
 
 #include "core/control/house_publisher.h"

@@ -23,7 +23,7 @@ class ServerName : public testing::Test {
     if (run("unshare -m true").exit_code != 0)
       GTEST_SKIP() << "no mount namespace can be made here";
     set_hosts("");
-    // A name server that receives questions, and answers none.
+    // A name server that receives requests and answers none.
     silent_ = *UdpSocket::bind(Address::resolve("127.0.0.53:53").value());
     std::ofstream(folder_.path("resolv.conf"))
         << "nameserver 127.0.0.53\noptions timeout:30 attempts:5\n";

@@ -58,7 +58,7 @@ class SoundServer {
   SoundServer& operator=(const SoundServer&) = delete;
 
   bool is_open() const { return is_open_; }
-  // It hangs: the kernel accepts connections for it, and it answers nothing.
+  // The server hangs: the kernel accepts connections for it, and nothing is answered.
   void suspend() { child_->send_signal(SIGSTOP); }
   void resume() { child_->send_signal(SIGCONT); }
 

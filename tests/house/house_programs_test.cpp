@@ -74,7 +74,7 @@ TEST_F(HousePrograms, HearWhomTheSessionWantsAndTheCommandLineCountsMore) {
   EXPECT_GT(received(without, "bob"), 0u) << without;
 }
 
-// Whether alice and bob face each other on this stage for a second without a break, within a step.
+// True if alice and bob face each other within a step on this stage for a whole second.
 void expect_partners_on_stage(const char* bus) {
   struct Seen {
     Eigen::Vector3f p_WH_m = Eigen::Vector3f::Zero(), forward = Eigen::Vector3f::Zero();

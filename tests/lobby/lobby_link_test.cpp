@@ -17,7 +17,7 @@ namespace {
 constexpr const char* kHouse =
     "[house]\nguest = \"ann\"\n[[produce]]\nkind = \"salsa\"\nguest = \"ann\"\nrole = \"lead\"\n"
     "[window]\nwidth = 1280\nheight = 720\n";
-// The column of the sheet's Join in a window of 1280 x 720, and a height above it.
+// The column of the button Join in the dialog, in a window of 1280 x 720, and a height above it.
 constexpr int kJoin_x = 600, kAboveJoin_y = 160, kJoinHalf_px = 20;
 
 class LobbyLink : public testing::Test {
@@ -55,7 +55,7 @@ class LobbyLink : public testing::Test {
     window_.start({link});
     ASSERT_TRUE(window_.is_started());
   }
-  // The sheet dims all but its own buttons.
+  // The dialog dims everything except its own buttons.
   int join_y() const { return window_.accent_below(kJoin_x, kAboveJoin_y); }
   bool asks() const { return join_y() >= 0 && !window_.shows_lobby(); }
   // A click right after the question appears counts for nothing, and a button under the mouse has

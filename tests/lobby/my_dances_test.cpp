@@ -64,7 +64,7 @@ TEST_F(MyDances, ARecordingIsExportedAndWatched) {
     if (!glb_is_shown()) input_->click(kExport_x, buttons_y);
     return wait_for(glb_is_shown, std::chrono::seconds(2));
   })) << window_.talk();
-  // While it is written all of the page is lower: nothing is to be clicked then.
+  // While the file is written the whole page is lower, so nothing is clicked then.
   EXPECT_TRUE(wait_for([&] {
     if (watch_y() + kMyDancesToMiddle_px == buttons_y && glb_is_shown())
       input_->click(kGlb_x, buttons_y + kGlbBelow_px);

@@ -1,4 +1,4 @@
-// Tests of what panels, which look once a picture, see of clicks between two pictures.
+// Tests that panels, which read the mouse once a picture, get clicks between two pictures.
 #include "viewer/window/mouse_buttons.h"
 
 #include <gtest/gtest.h>

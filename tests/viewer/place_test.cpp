@@ -92,7 +92,7 @@ TEST(PlaceShape, KeepsTheThingsOfAWallOffTheFreeFloor) {
   }
 }
 
-// Möller and Trumbore: whether the way from a to b meets the front of a triangle.
+// Möller and Trumbore: true if the segment from a to b meets the front of a triangle.
 bool meets(const Vector3f& a, const Vector3f& b, const PlaceVertex* corners, int second) {
   const Vector3f way = b - a;
   const Vector3f e1 = corners[second].place_W_m - corners[0].place_W_m;

@@ -1,4 +1,4 @@
-// A program with LCM's Java library, as lcm-spy is one: prints the name of each message that it receives on the bus of
+// A program with LCM's Java library, like lcm-spy: prints the name of each message that it receives on the bus of
 // the URL given, and publishes on LIGHT/java, until it is ended.
 import java.io.IOException;
 import lcm.lcm.LCM;

@@ -1,5 +1,5 @@
-// Attacks on the bus, from another host of the LAN and from this machine, against the programs as
-// they are built.
+// Attacks on the bus, from another host of the LAN and from this machine, against the built
+// programs.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -129,7 +129,7 @@ TEST_F(BusAttack, OneLineTellsThatABusIsOpenToTheNetwork) {
   EXPECT_EQ(closed.talk.find("opens it to the network"), std::string::npos) << closed.talk;
 }
 
-// One of the kinds of datagrams that attackers send, by turns.
+// Returns a hostile datagram; its kind depends on the number.
 std::string hostile_datagram(std::uint32_t number, Random& random) {
   std::string noise(64 + random.below(1200), 'x');
   for (std::size_t i = 0; i < 32; ++i) noise[i] = static_cast<char>(random.below(256));

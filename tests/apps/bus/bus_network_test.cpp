@@ -53,7 +53,7 @@ TEST_F(BusAndNetwork, TheDanceOfAMachineGoesOnWhenTheNetworkChanges) {
   expect_one_line_each("ip link set lan0 down", "from lan0 to no device");
   expect_one_line_each("ip link set lan0 up && ip route add default via 10.9.8.2",
                        "from no device to lan0");
-  // A VPN that closes the other ways.
+  // A VPN that forbids all other routes.
   expect_one_line_each("ip rule add prohibit priority 100", "from lan0 to no device");
   expect_one_line_each("ip rule del prohibit priority 100", "from no device to lan0");
   expect_one_line_each(

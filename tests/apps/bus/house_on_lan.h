@@ -22,7 +22,7 @@ namespace dance {
 
 constexpr int kBusPort = 7667;  // of kDefaultBusUrl
 
-// How many messages of each channel a log holds.
+// The number of messages of each channel in a log.
 inline std::map<std::string, int> count_log_of(const std::string& path) {
   std::map<std::string, int> counts;
   auto log = LogReader::open(path);

@@ -68,7 +68,7 @@ TEST_F(DoctorSound, TellsThatNobodyIsThere) {
   EXPECT_TRUE(named.is_named);
 }
 
-// A socket that listens at a path; -1 where that fails.
+// Opens a socket that listens at a path; -1 if that fails.
 int listen_at(const std::string& path) {
   const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
   sockaddr_un address{};

@@ -1,4 +1,4 @@
-// Tests whose messages a bus receives: those of this machine's programs with any routes, those of
+// Tests the senders that a bus receives: this machine's programs with any routes, those of
 // other hosts only with ttl=1 or more, and those of LCM's library in both directions.
 #include <gtest/gtest.h>
 #include <lcm/lcm.h>
@@ -34,7 +34,7 @@ class CountingBus {
       ++counts_[std::string(name)];
     });
   }
-  // Whether a message of this channel has arrived, or does within two seconds.
+  // True if a message of this channel has arrived, or arrives within two seconds.
   bool has_received(const std::string& channel) {
     drain_until(*bus_, [&] { return counts_[channel] > 0; });
     return counts_[channel] > 0;

@@ -125,7 +125,7 @@ TEST_F(HouseInputsTest, IgnoresRequestsOnTheBus) {
 TEST_F(HouseInputsTest, ReportsPosesThatArriveOnTheBusOnly) {
   open();
   subscribe(GuestId());
-  // Those of a program of this user arrive there, too.
+  // Captures of this user's programs arrive on the bus, too, and are not reported.
   for (std::uint32_t i = 0; i < 3 * HouseInputs::kReportedEach; ++i) {
     publish_on_bus(kOwnGuest, Pose());
     send(kOwnGuest, Pose());

@@ -1,4 +1,4 @@
-// The socket over which programs of this user reach houses, and who else does not.
+// The socket over which programs of this user reach houses, and programs of other users do not.
 #include "core/control/house_socket.h"
 
 #include <gtest/gtest.h>

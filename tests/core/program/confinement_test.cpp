@@ -31,7 +31,7 @@ bool must_confine() {
 #endif
 }
 
-// Whether a system call was refused by the filter.
+// True if the filter refused the system call.
 bool is_denied(long result) { return result < 0 && errno == EPERM; }
 
 class ConfinementTest : public ::testing::Test {

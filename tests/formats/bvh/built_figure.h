@@ -1,5 +1,5 @@
 // Figures of 1.7 m in T-pose, built joint by joint with any names, as BVH text in centimetres or as
-// a GLB in metres: what exporters of others write, in small.
+// a GLB in metres: small samples of what other programs export.
 //
 // Threads: none inside.
 // Failure: none; a name that is not there is our bug and ends the test by an exception.
@@ -30,7 +30,7 @@ class BuiltFigure {
   // Puts a new joint between a joint and its parent, which takes `share` of the way.
   void put_above(const std::string& joint, const std::string& name, double share);
   void rename(const std::string& from, const std::string& to) { at(from).name = to; }
-  // "joint1", "joint2" …, in an order that tells nothing.
+  // "joint1", "joint2" …, in an order that has no meaning.
   void scramble_names();
 
   // Angles of channels Zrotation Xrotation Yrotation in the second of the two frames.

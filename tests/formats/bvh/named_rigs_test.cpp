@@ -266,7 +266,7 @@ TEST(NamedRigs, TakeTheBoneAndNotItsHelperOfTheSameWords) {
   }
 }
 
-// Two joints in the middle named as thighs, the real ones below with names that tell nothing.
+// Two joints in the middle named as thighs, the real ones below with names that mean nothing.
 TEST(NamedRigs, GoByTheShapeWhereNamesGiveNoHuman) {
   BuiltFigure figure = built_human({});
   bend(figure, {});

@@ -43,7 +43,7 @@ TEST(Retarget, ReadsPositionsOfHipsBelowARootByTheFloor) {
   const auto placed = read_at_its_height(figure.bvh());
   ASSERT_TRUE(placed.has_value()) << placed.error().what;
   EXPECT_LT((placed->clip.frames[0].p_WH_m - Eigen::Vector3f(0, 0.95f, 0)).norm(), kSamePlace_m);
-  // They hold what is to be added to the OFFSET.
+  // The position channels are added to the OFFSET.
   figure.at("Hips").offset_cm = Vector3d(0, 95, 0);
   figure.set_position("Hips", {0, 3, 10});
   const auto added = read_at_its_height(figure.bvh());
@@ -69,7 +69,7 @@ void expect_identical(const MotionClip& a, const MotionClip& b) {
         << kBones[bone].name;
   for (std::size_t tip = 0; tip < kTipCount; ++tip)
     EXPECT_LT((a.skeleton.tip_m[tip] - b.skeleton.tip_m[tip]).norm(), 1e-5f) << "tip " << tip;
-  constexpr float kSame_rad = 2e-3f;  // floats of a unit quaternion tell no less
+  constexpr float kSame_rad = 2e-3f;  // the resolution of a unit quaternion of floats
   for (std::size_t f = 0; f < a.frames.size(); ++f) {
     EXPECT_LT((a.frames[f].p_WH_m - b.frames[f].p_WH_m).norm(), 1e-5f);
     for (std::size_t bone = 0; bone < kBoneCount; ++bone)

@@ -22,7 +22,7 @@ class FakeReceiver final : public PoseReceiver {
 class InputReportTest : public testing::Test {
  protected:
   InputReportTest() { receiver_.now.at = Address::loopback(39539); }
-  // The lines of so many seconds, in each of which datagrams arrive and make poses.
+  // Returns the lines of that many seconds. In each second datagrams arrive and give poses.
   std::vector<std::string> lines_of(int seconds, std::uint64_t datagrams = 0,
                                     std::uint64_t poses = 0) {
     std::vector<std::string> lines;

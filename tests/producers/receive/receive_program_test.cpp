@@ -1,4 +1,4 @@
-// dance receive with senders that make no pose: what it tells its user.
+// dance receive with senders whose datagrams give no pose: the lines that it prints.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -22,7 +22,7 @@ class ReceiveProgram : public testing::Test {
     ASSERT_TRUE(child) << child.error().what;
     child_.emplace(std::move(*child));
   }
-  // Sends a datagram again and again until the program has told something.
+  // Sends a datagram again and again until the program has printed a line.
   bool tells(const std::string& words, const Address& to = Address(),
              const std::vector<std::uint8_t>& datagram = {}) {
     std::optional<UdpSocket> sender;

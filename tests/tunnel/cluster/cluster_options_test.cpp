@@ -1,4 +1,4 @@
-// How a program learns its login for NATS without showing it to the other users of the machine.
+// Tests how a program reads its login for NATS, hidden from other users of the machine.
 #include "tunnel/server/program/cluster/cluster_options.h"
 
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ TEST_F(ClusterLogin, IsRefusedWhereOthersMayReadItsFile) {
     options.urls = "nats://a:4222";
     options.login = file("me:secret\n", mode);
     EXPECT_NE(error_of(options).find("chmod 600"), std::string::npos) << error_of(options);
-    // So is a file of credentials.
+    // A file of credentials is refused in the same way.
     ClusterOptions credentials;
     credentials.urls = "nats://a:4222";
     credentials.nats.credentials = options.login;

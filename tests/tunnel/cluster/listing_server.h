@@ -1,5 +1,5 @@
-// A server with a real socket that lists the servers that a test chooses, and says goodbye when the
-// test says so. Call tick() in each turn of the test.
+// A server with a real socket. It lists the servers that a test chooses, and sends a goodbye when
+// the test requests one. Call tick() in each turn of the test.
 //
 // Ownership:    owns its socket; the poller must outlive it.
 // Threads:      the poller's.

@@ -69,7 +69,7 @@ TEST(ServerCandidates, AServerOfThisNetworkMayNameOthersOfIt) {
       2u);
 }
 
-// The attack of a reviewer: lists that name 1,000 ports of a third host, one after the other.
+// An attack: lists that name 1,000 ports of a third host, one after the other.
 TEST(ServerCandidates, ThousandPortsOfAThirdHostAreNeverCandidates) {
   ServerCandidates candidates;
   std::set<std::uint16_t> ports;
@@ -96,7 +96,7 @@ TEST(ServerCandidates, DifferentHostsAreBoundedWithinTheWindow) {
   for (int i = 1; i <= 200; ++i) taken += name(i, kStart + Duration::s(i));
   EXPECT_EQ(taken, ServerCandidates::kMost);
   EXPECT_EQ(name(1, kStart + Duration::s(300)), 1u) << "known";
-  // Those that no list named for the window are forgotten.
+  // Hosts that no list named within the window are forgotten.
   const MonoTime later = kStart + Duration::s(300) + ServerCandidates::kWindow;
   EXPECT_EQ(name(201, later), 1u);
   EXPECT_EQ(name(1, later), 1u);
@@ -115,7 +115,7 @@ TEST(ServerCandidates, EachIsProbedOnceEachTenSeconds) {
   EXPECT_EQ(candidates.probe_due(servers, later), later);
 }
 
-// The attack of a reviewer: a list that names a victim, and a goodbye.
+// An attack: a list that names a victim, and a goodbye.
 TEST(ServerCandidates, AllowsNoTryOfACandidateThatHasNotAnsweredAProbe) {
   ServerCandidates candidates;
   const Address home = public_address("203.0.113.5"), victim = public_address("198.51.100.7");

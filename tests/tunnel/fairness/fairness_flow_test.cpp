@@ -1,5 +1,5 @@
-// Attacks of a security review on everybody else's share of a server, with dance-server and
-// dance-link as they are built. Each test makes a network namespace of its own.
+// Attacks that take other guests' share of a server, with the built dance-server and dance-link.
+// Each test makes a network namespace of its own.
 #include <gtest/gtest.h>
 
 #include <algorithm>

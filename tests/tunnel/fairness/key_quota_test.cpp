@@ -18,7 +18,7 @@ std::size_t connected(const std::vector<House*>& houses) {
       houses, [](const House* house) { return house->link->is_connected(); }));
 }
 
-// The attack of a reviewer: one guest's key opened 256 sessions and took every place.
+// An attack: one guest's key opened 256 sessions and took every place.
 TEST(KeyQuota, OneKeyCannotTakeEverySession) {
   SimulatedTunnel tunnel;
   std::vector<House*> of_mallory;

@@ -94,7 +94,7 @@ TEST_F(SealCertificate, RevokedOnesAndExpiredListsAreRefused) {
   auto& wary = house(of_link, "dance.example.org");
   street.run(Duration::ms(50));
   EXPECT_EQ(wary.sealed, 0);
-  // A list that is out of date tells nothing of those who were revoked since.
+  // A list that is out of date lacks the certificates that were revoked since.
   street.certificates->authorities = ours->write_revocations("", -60);
   street.start_server();
   EXPECT_EQ(sealed("carol"), 0);

@@ -1,5 +1,5 @@
-// A guest for tests: her entry among a server's keys, the private key that her house has, and the
-// key with which her link opens a session.
+// A guest for tests: the entry in a server's keys, the private key of the guest's house, and the key
+// with which the guest's link opens a session.
 #pragma once
 
 #include <string_view>
@@ -21,7 +21,7 @@ inline GuestKey key_of(std::string_view name, KeyKind kind = KeyKind::kGuest) {
   return made;
 }
 
-// The house has her private key as a grant, and an identity of its own.
+// The house has the private key as a grant, and an identity of its own.
 inline LinkKey link_key_of(const GuestKey& guest, const PublicKey& server) {
   return *LinkKey::of({guest.name, "", GuestId(), server, guest.own}, PrivateKey::make());
 }

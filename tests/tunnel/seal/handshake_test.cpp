@@ -234,7 +234,7 @@ TEST(SealHandshake, NewcomersOfOtherNetworksKeepTheirPlaces) {
   EXPECT_EQ(slow.client->counters().tries, 1u);
 }
 
-// The attack of a reviewer: 3,000 first datagrams a second, each with a valid cookie, from /64s of
+// An attack: 3,000 first datagrams a second, each with a valid cookie, from /64s of
 // one IPv6 /48. Before, one rate for all was used up, and no newcomer came in.
 TEST(SealHandshake, NewcomerGetsItsTurnDuringAFloodFromOneWideNetwork) {
   const GuestKey alice = key_of("alice");

@@ -47,7 +47,7 @@ TEST(NewcomerQueue, GivesTurnsToNetworksNotToAddresses) {
 TEST(NewcomerQueue, SharesTurnsOfAWideNetworkAmongItsParts) {
   NewcomerQueue queue(64, 1);
   std::uint64_t id = 4;
-  // One /48 asks from 30 /64s, another of the same /32 from one.
+  // One /48 sends from 30 /64s, another /48 of the same /32 sends from one.
   for (unsigned i = 0; i < 30; ++i) queue.push(in_48(1, i), id += 4, kHello, false, kStart);
   queue.push(in_48(2, 0), id += 4, kHello, false, kStart);
   queue.pop();

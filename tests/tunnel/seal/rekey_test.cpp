@@ -11,7 +11,7 @@
 namespace dance {
 namespace {
 
-// One house that speaks with the server each 5 ms, both ways.
+// One house that exchanges datagrams with the server every 5 ms, both ways.
 class Rekeying : public ::testing::Test {
  protected:
   explicit Rekeying(RekeyLimits limits = {Duration::s(1), 1u << 26}) {
@@ -37,7 +37,7 @@ class Rekeying : public ::testing::Test {
   std::size_t received_down() const {
     return std::set(house->heard.begin(), house->heard.end()).size();
   }
-  // Ids of sessions in which data went to the server.
+  // Ids of the sessions in which data was sent to the server.
   std::set<std::uint64_t> ids_used() const {
     std::set<std::uint64_t> ids;
     for (const auto& passing : street.sent) {

@@ -1,4 +1,4 @@
-// Many speak at once: each receiver gets eight talkers, and all get turns.
+// Many guests speak at once: each receiver gets eight talkers, and all talkers get turns.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -17,7 +17,7 @@ using House = SimulatedTunnel::House;
 OwnerKey person(int number) { return {guest("key-" + std::to_string(number)), false}; }
 const OwnerKey kRoomKey{guest("party"), true};
 
-// One who sends a packet each `interval`.
+// A talker who sends a packet every `interval`.
 struct Speaker {
   std::uint8_t slot = 0;
   OwnerKey key;
@@ -243,7 +243,7 @@ TEST_F(VoiceCrowd, LoudnessTakesNobodysPlace) {
   EXPECT_FALSE(received_within(Duration::ms(300)).contains("t11"));
 }
 
-// The attack of a reviewer: all eight places went to eight loud guests of one link.
+// An attack: all eight places went to eight loud guests of one link.
 TEST(VoiceFairness, EightGuestsOfOneLinkLeaveTheOthersTheirPlaces) {
   SimulatedTunnel tunnel;
   House& listener = tunnel.add_house("salsa", {});

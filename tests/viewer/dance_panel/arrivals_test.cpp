@@ -8,7 +8,7 @@ namespace {
 
 GuestId arrival_named(const char* name) { return *GuestId::parse(name); }
 
-// A room whose link names some guests once a second.
+// A room whose link publishes some guests once a second.
 struct NamingRoom {
   std::string run(Duration duration) {
     std::string announced;

@@ -67,7 +67,7 @@ Hands hands_at(double s) {
   return hands;
 }
 
-// A line each four seconds, a sign each three.
+// A line every four seconds, a sign every three.
 std::optional<Chat> chat_at(double s, int frame) {
   Chat chat;
   chat.time = night(s);

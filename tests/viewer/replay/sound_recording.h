@@ -1,7 +1,7 @@
 // SoundRecording: makes a recording for tests of sound. In it alice dances; a test adds songs,
 // beats and voices.
 //
-// Units/frames: seconds since the begin of the recording; times of the recorded house's clock.
+// Units/frames: seconds since the start of the recording; times of the recorded house's clock.
 #pragma once
 
 #include <gtest/gtest.h>
