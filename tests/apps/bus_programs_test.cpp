@@ -85,7 +85,7 @@ TEST_F(BusPrograms, SpyPrintsACommandWithOurTypes) {
   EXPECT_NE(spy.output.find(kBus), std::string::npos) << spy.output;
 }
 
-TEST_F(BusPrograms, NameTheCureInOneLineWhereLoopbackIsDown) {
+TEST_F(BusPrograms, NameTheCureInOneLineIfLoopbackIsDown) {
   for (const std::string program :
        {"dance-top --once", "dance-record -o /dev/null", "dance-salsa --seconds 1",
         "dance-listen --seconds 1", "dance-latency --seconds 1", "dance-link --guest alice"}) {

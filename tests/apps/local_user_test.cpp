@@ -147,7 +147,7 @@ TEST_F(LocalUser, PosesOfAnotherUserAreNotSentAndTheOptionIsNamed) {
   EXPECT_EQ(forged_, 0);
 }
 
-TEST_F(LocalUser, IsTakenForTheGuestWhereTheHouseSaysSo) {
+TEST_F(LocalUser, PosesOfAnotherUserAreSentIfTheHouseAllowsIt) {
   start_link("bob", kOtherBus);
   start_link("hanna", kBus, {"--bus-captures", "hanna"});
   EXPECT_TRUE(turn_until([&] { return forged_ > 30; })) << talk();

@@ -38,7 +38,9 @@ TEST(RecordFilter, PatternsMatchWholeNames) {
   }
 }
 
-TEST(RecordFilter, NoPatternsWantAll) { EXPECT_TRUE(RecordFilter::make({})->wants("x")); }
+TEST(RecordFilter, MatchesAllChannelsWithoutPatterns) {
+  EXPECT_TRUE(RecordFilter::make({})->wants("x"));
+}
 
 TEST(RecordFilter, ABrokenPatternIsNamed) {
   const auto filter = RecordFilter::make({"POSE/(.*"});

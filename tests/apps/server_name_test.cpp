@@ -67,7 +67,7 @@ class ServerName : public testing::Test {
   std::deque<ChildProcess> children_;  // references to them hold
 };
 
-TEST_F(ServerName, ALinkConnectsWhenANameIsKnownThatWasNotAtTheStart) {
+TEST_F(ServerName, ALinkConnectsOnceAnUnknownNameIsResolved) {
   start_link("files");
   ASSERT_TRUE(link_tells("'dance.example.test' is unknown")) << talk();
   set_hosts("127.0.0.2");

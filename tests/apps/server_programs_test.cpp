@@ -103,7 +103,7 @@ TEST_F(ServerPrograms, StatusTellsWhoIsThereAndHowTheyFare) {
       << table.output;
 }
 
-TEST_F(ServerPrograms, TheLogTellsWhoJoinedAndWhoWasRefusedAlsoAfterARestart) {
+TEST_F(ServerPrograms, TheLogListsJoinsAndRefusalsAlsoAfterARestart) {
   ::setenv("XDG_CONFIG_HOME", folder_.path().c_str(), 1);
   ChildProcess& server = start_server();
   start_dancer("alice", kBus);
@@ -135,7 +135,7 @@ TEST_F(ServerPrograms, TheLogTellsWhoJoinedAndWhoWasRefusedAlsoAfterARestart) {
   ::setenv("XDG_CONFIG_HOME", DANCE_BINARY_DIR "/test-config", 1);
 }
 
-TEST_F(ServerPrograms, AGuestWhoseKeyHasExpiredIsToldSoAndComesInWithAnother) {
+TEST_F(ServerPrograms, AGuestWithAnExpiredKeyGetsTheReasonAndJoinsWithANewKey) {
   const PrivateKey grant = PrivateKey::make();
   const std::string key = grant.public_key().text();
   const std::string keys = folder_.path("server-keys");

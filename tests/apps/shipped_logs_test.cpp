@@ -43,7 +43,7 @@ TEST_F(ShippedLogPrograms, ReplayPlaysBothForms) {
   expect_couple_in_music(kOtherBus);
 }
 
-TEST_F(ShippedLogPrograms, LcmsOwnPlayerPlaysThePlainOne) {
+TEST_F(ShippedLogPrograms, LcmLogplayerPlaysThePlainForm) {
   if (run("command -v lcm-logplayer").exit_code != 0)
     GTEST_SKIP() << "lcm-logplayer is not installed";
   play_over_and_over(kPlain, kBus);

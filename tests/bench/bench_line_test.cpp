@@ -67,7 +67,7 @@ TEST(BenchLineProgram, MeasuresACleanLineAndARecordedOne) {
   EXPECT_EQ(report["lines"][0]["up"]["line"]["queue_dropped"], 0);
 }
 
-TEST(BenchLineProgram, WritesATableOfEachLineFromEachOfItsMoments) {
+TEST(BenchLineProgram, WritesATableForEachLineAndEachOfItsStarts) {
   const TestFolder folder("bench-line");
   const std::string trace = folder.path("wifi.csv");
   std::ofstream(trace) << "t_ms,owd_var_ms\n0,1\n100,30\n200,2\n";

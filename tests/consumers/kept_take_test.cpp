@@ -76,7 +76,7 @@ TEST_F(KeptTakes, StayWhereTheFileCannotBeWrittenAndAreNotOverwritten) {
   EXPECT_EQ(poses_in(file + ".lcm"), 120u);
 }
 
-TEST_F(KeptTakes, StayWhereTheFileLacksAGuest) {
+TEST_F(KeptTakes, StayIfTheFileLacksAGuest) {
   const std::string file = folder_.path("couple.bvh");
   const auto consumer = consumer_of("bvh", file);
   dance(*consumer);
@@ -99,7 +99,7 @@ TEST_F(KeptTakes, AreNotKeptBesideADevice) {
   EXPECT_TRUE(consumer->finish().has_value());
 }
 
-TEST_F(KeptTakes, LeaveNothingWhereNobodyDances) {
+TEST_F(KeptTakes, LeaveNoFileIfNobodyDances) {
   const std::string file = folder_.path("none.glb");
   EXPECT_FALSE(consumer_of("glb", file)->finish().has_value());
   EXPECT_FALSE(std::filesystem::exists(file + ".lcm"));

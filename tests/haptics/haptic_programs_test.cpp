@@ -77,7 +77,7 @@ TEST_F(HapticPrograms, AHouseRunsHapticsThatAreToBeExactAsAProgramOfItsOwn) {
   EXPECT_TRUE(wait_for([&] { return feels(*ear); })) << text_of(folder_.path("talk"));
 }
 
-TEST(HapticProgramErrors, SayInOneLineWhatIsMissing) {
+TEST(HapticProgramErrors, NameTheMissingPartInOneLine) {
   const Finished none = run(bin("dance-haptics"));
   EXPECT_EQ(none.exit_code, 2);
   EXPECT_NE(none.talk.find("--guest alice --to evdev"), std::string::npos) << none.talk;

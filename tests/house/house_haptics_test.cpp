@@ -27,7 +27,7 @@ pid_t running_haptics(pid_t other_than) {
   return 0;
 }
 
-TEST_F(HouseHaptics, ExactHapticsThatAreStartedAgainKeepWhatTheyWereTold) {
+TEST_F(HouseHaptics, ExactHapticsKeepTheirSettingsAfterARestart) {
   ::setenv("XDG_RUNTIME_DIR", folder_.path("").c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
   std::ofstream(folder_.path("exact.toml"))
       << "[house]\nbus = \"" << kBus << "\"\nguest = \"alice\"\n"

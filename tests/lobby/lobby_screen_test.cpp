@@ -241,7 +241,7 @@ TEST_F(LobbyScreenTest, WhoIsInARoomIsShownOrWhyItIsNot) {
 }
 
 // Join, far down on the page, fails: the reason stands at its top.
-TEST_F(LobbyScreenTest, AFaultIsSeenWhereverThePageWasScrolledTo) {
+TEST_F(LobbyScreenTest, AnErrorIsVisibleOnAScrolledPage) {
   constexpr int kWidth_px = 960, kHeight_px = 500;
   const LobbyBanner fault{
       LobbyBanner::Kind::kTrouble, Text::kLobbyNotBegun, {}, "", Text::kCount, LobbyWish::kNone};

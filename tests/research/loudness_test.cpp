@@ -19,7 +19,7 @@ std::vector<float> sine(double amplitude, double seconds) {
   return stereo;
 }
 
-TEST(Loudness, IsThatOfTheStandardForSines) {
+TEST(Loudness, MatchesTheStandardForSines) {
   EXPECT_NEAR(loudness_lufs(sine(1.0, 2.0)), 0.0, 0.1);
   EXPECT_NEAR(loudness_lufs(sine(0.1, 2.0)), -20.0, 0.1);
 }

@@ -153,7 +153,7 @@ TEST(Listeners, HaveABoundOfTheirOwn) {
   EXPECT_TRUE(third.link->is_connected());
 }
 
-TEST(Access, AKeyThatHasExpiredOpensNoRoomAndTheLinkIsToldWhy) {
+TEST(Access, AnExpiredKeyOpensNoRoomAndTheLinkGetsTheReason) {
   SimulatedTunnel tunnel;
   auto& late = tunnel.add_house("salsa", {"alice"}, {},
                                 {.name = guest("alice"), .is_expired = true, .until_s = 1000});

@@ -238,7 +238,7 @@ struct AuditedTunnel {
   std::vector<Told> told;
 };
 
-TEST(AuditEvents, TellJoinsRefusalsAndRemovalsWithKeyRoomAndCause) {
+TEST(AuditEvents, ReportJoinsRefusalsAndRemovalsWithKeyRoomAndCause) {
   AuditedTunnel of;
   auto& host =
       of.tunnel.add_house("salsa", {"hanna"}, {}, {.name = guest("hanna"), .role = Role::kHost});

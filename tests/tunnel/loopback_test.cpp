@@ -19,7 +19,7 @@
 namespace dance {
 namespace {
 
-TEST_F(LoopbackLinks, ALinkTriesEachAddressOfAServerAndTellsWhichIsSilent) {
+TEST_F(LoopbackLinks, ALinkTriesEachAddressOfAServerAndReportsTheSilentOne) {
   const auto silent = UdpSocket::bind(Address::loopback(0));
   ASSERT_TRUE(silent);
   std::vector<Address> unanswered;
@@ -69,7 +69,7 @@ TEST_F(LoopbackLinks, APoseGoesFromHouseToHouseWithItsJourneyStamped) {
             std::string::npos);
 }
 
-TEST_F(LoopbackLinks, WhoIsThereIsToldToAKeyWithoutComingIn) {
+TEST_F(LoopbackLinks, AServerListsTheGuestsOfARoomForAKeyWithoutAJoin) {
   auto a = link("alice");
   ASSERT_TRUE(turn_until([&] { return a->is_connected(); }));
   const std::vector<wire::RoomName> rooms{guest("tango"), guest("salsa")};
@@ -139,7 +139,7 @@ class Tamperer {
   Address link_;
 };
 
-TEST_F(LoopbackLinks, ALinkReportsWhatItsSealKeptOut) {
+TEST_F(LoopbackLinks, ALinkReportsDatagramsThatItsSealRefused) {
   auto to_link = UdpSocket::bind(Address::loopback(0));
   auto to_server = UdpSocket::connect(address);
   ASSERT_TRUE(to_link && to_server);
@@ -202,7 +202,7 @@ TEST_F(LoopbackLinks, ALinkThatEndsSaysGoodbye) {
   EXPECT_EQ(server->core().counters().goodbyes, 1u);
 }
 
-TEST_F(LoopbackLinks, SessionsStandThroughALineThatLosesAThird) {
+TEST_F(LoopbackLinks, SessionsSurviveALineThatLosesAThird) {
   auto proxy = LossyProxy::open(Address::loopback(0), address,
                                 *load_line({.link = "loss=33% dup=5% delay=1ms seed=5"}), *poller);
   ASSERT_TRUE(proxy);
@@ -239,7 +239,7 @@ TEST_F(LoopbackLinks, SessionsStandThroughALineThatLosesAThird) {
   EXPECT_GE(stats[0].received, heard);
 }
 
-TEST_F(LoopbackLinks, AKeyForAllOpensNoNameThatHasItsOwn) {
+TEST_F(LoopbackLinks, ARoomsKeyDoesNotOpenANameWithItsOwnKey) {
   KeyEntry carol = key;
   carol.name = *GuestId::parse("carol");
   carol.kind = KeyKind::kGuest;
@@ -258,7 +258,7 @@ TEST_F(LoopbackLinks, AKeyForAllOpensNoNameThatHasItsOwn) {
   EXPECT_TRUE(turn_until([&] { return other->is_connected(); }));
 }
 
-TEST_F(LoopbackLinks, AKeyThatIsTakenBackLeavesTheRoomAtOnce) {
+TEST_F(LoopbackLinks, GuestsOfARevokedKeyLeaveTheRoomAtOnce) {
   auto a = link("alice");
   ASSERT_TRUE(turn_until([&] { return a->is_connected(); }));
   auto none = std::make_shared<const KeyRing>();

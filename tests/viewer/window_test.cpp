@@ -190,7 +190,7 @@ class WindowContextTest : public WindowRunTest {
   QualityWish quality() const override { return QualityWish::kHigh; }
 };
 
-TEST_F(WindowContextTest, MakesEverythingAnewWhenTheContextIsLost) {
+TEST_F(WindowContextTest, RecreatesEverythingWhenTheContextIsLost) {
   press(GLFW_KEY_H);
   press(GLFW_KEY_H);
   turn(4);

@@ -119,7 +119,7 @@ TEST_F(BusAttack, EscapeBytesOfASenderDoNotReachTheTerminal) {
     }
 }
 
-TEST_F(BusAttack, OneLineTellsThatABusIsOpenToTheNetwork) {
+TEST_F(BusAttack, OneLineReportsThatABusIsOpenToTheNetwork) {
   const std::string listen = bin("dance-listen") + " --seconds 0.2 --bus ";
   const Finished open = lan_.machine.run(listen + "udpm://239.255.76.67:7667?ttl=1");
   const std::size_t at = open.talk.find("ttl=1 opens it to the network");
@@ -153,7 +153,7 @@ std::string hostile_datagram(std::uint32_t number, Random& random) {
   }
 }
 
-TEST_F(BusAttack, TenThousandDatagramsASecondLeaveTheDanceGoing) {
+TEST_F(BusAttack, TheDanceGoesOnBesideTenThousandDatagramsASecond) {
   constexpr int kTicks = 300;
   open_house();
   ChildProcess& record = start("dance-record", {"-o", folder_.path("evening.lcm")});

@@ -64,7 +64,7 @@ TEST_F(BusBesideLcm, OurProgramsNeedNoRoute) {
   EXPECT_TRUE(is_dance_going_on()) << talk_of("dance-join");
 }
 
-TEST_F(BusBesideLcm, TheDoctorsNftablesLineShutsTheLanOutAndNotThisMachine) {
+TEST_F(BusBesideLcm, TheDoctorsFirewallRuleBlocksTheLanButNotThisMachine) {
   if (run("command -v nft lcm-logger").exit_code != 0)
     GTEST_SKIP() << "nft and lcm-logger are not both installed";
   const Finished doctor = lan_.machine.run(bin("dance-doctor"));

@@ -253,7 +253,7 @@ TEST_F(Convert, KeepsTheWholeFramesOfACutClipAndExitsWithOne) {
       << finished.talk;
 }
 
-TEST_F(Convert, TakesTheUnitAndTheAxisThatAreGiven) {
+TEST_F(Convert, UsesTheGivenUnitAndAxis) {
   const auto height_m = [&](const std::string& more) {
     const std::string to = folder_.path("height.lcm");
     std::filesystem::remove(to);

@@ -14,7 +14,7 @@ namespace {
 using Grade = Finding::Grade;
 using Outcome = ResolverAnswer::Outcome;
 
-TEST(DoctorNetwork, TakesLoopbackThatIsDownOrWithoutAddressForAProblem) {
+TEST(DoctorNetwork, ReportsLoopbackThatIsDownOrWithoutAddressAsAProblem) {
   EXPECT_EQ(check_loopback({true, true}).grade, Grade::kOk);
   EXPECT_EQ(check_loopback({false, false}).grade, Grade::kProblem);
   EXPECT_EQ(check_loopback({false, true}).cure, "ip link set lo up");
@@ -29,7 +29,7 @@ TEST(DoctorNetwork, FindsTheDeviceOfLoopback) {
   EXPECT_EQ(device_of(*Address::resolve("203.0.113.7:1")), "");
 }
 
-TEST(DoctorNetwork, TellsATunnelFromACardByItsKind) {
+TEST(DoctorNetwork, DistinguishesATunnelFromACardByItsKind) {
   const TestFolder folder("doctor-devices");
   const auto device = [&](const std::string& name, const std::string& file, const char* content) {
     std::filesystem::create_directories(folder.path(name));
@@ -90,7 +90,7 @@ TEST(DoctorNetwork, FindsTheNameInTheServerOfASessionFile) {
     EXPECT_EQ(host_name_of(address), "") << address;
 }
 
-TEST(DoctorNetwork, TellsAnUnknownNameFromAResolverThatIsSilent) {
+TEST(DoctorNetwork, DistinguishesAnUnknownNameFromASilentResolver) {
   const auto judge = [](const char* name, Outcome outcome, Duration took, bool has_server = true) {
     return check_names({name, outcome, "Temporary failure", took}, has_server);
   };

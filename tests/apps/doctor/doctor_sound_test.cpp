@@ -79,7 +79,7 @@ int listen_at(const std::string& path) {
   return is_bound && listen(fd, 8) == 0 ? fd : -1;
 }
 
-TEST_F(DoctorSound, TellsThatWhoIsThereDoesNotLetUsIn) {
+TEST_F(DoctorSound, ReportsAServerThatRefusesThisUser) {
   const int fd = listen_at(folder_.path("pulse/native"));
   ASSERT_GE(fd, 0);
   auto refuser = ChildProcess::start_copy([fd] {
@@ -93,7 +93,7 @@ TEST_F(DoctorSound, TellsThatWhoIsThereDoesNotLetUsIn) {
   EXPECT_EQ(failure().trouble, SoundTrouble::kNoServer) << "what is left of a server is none";
 }
 
-TEST_F(DoctorSound, TellsAServerThatHangsFromOneThatRefuses) {
+TEST_F(DoctorSound, DistinguishesAServerThatHangsFromOneThatRefuses) {
   const int fd = listen_at(folder_.path("pulse/native"));
   ASSERT_GE(fd, 0);
   const SoundFailure hangs = failure();
@@ -106,7 +106,7 @@ TEST_F(DoctorSound, TellsAServerThatHangsFromOneThatRefuses) {
   close(fd);
 }
 
-TEST_F(DoctorSound, TellsAServerThatStoppedAnswering) {
+TEST_F(DoctorSound, ReportsAServerThatStoppedAnswering) {
   if (!std::filesystem::exists("/usr/bin/pulseaudio"))
     GTEST_SKIP() << "no pulseaudio: apt-get install pulseaudio";
   SoundServer sound(folder_);

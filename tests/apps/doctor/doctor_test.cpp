@@ -13,7 +13,7 @@ namespace {
 
 using Grade = Finding::Grade;
 
-TEST(Doctor, FindsMulticastOverLoopbackRightForLcmsPrograms) {
+TEST(Doctor, AcceptsMulticastOverLoopbackForLcmsPrograms) {
   EXPECT_EQ(check_multicast_device("lo").grade, Grade::kOk);
 }
 

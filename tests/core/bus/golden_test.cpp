@@ -323,7 +323,7 @@ TEST(GoldenDecode, CallsImpossibleValuesInvalid) {
   EXPECT_EQ(outcome_of(pose), Decoded::kFine);
 }
 
-TEST(GoldenDecode, TakesVoiceOfAnySizeUpToItsBoundAndLooksAtNoByteOfIt) {
+TEST(GoldenDecode, AcceptsVoiceOfAnySizeUpToItsBoundWithAnyBytes) {
   const auto outcome_of = [](auto change) {
     Voice voice = golden_voice(), decoded;
     change(voice);
@@ -346,7 +346,7 @@ TEST(GoldenDecode, TakesVoiceOfAnySizeUpToItsBoundAndLooksAtNoByteOfIt) {
     EXPECT_EQ(outcome_of([size](Voice& v) { v.size_bytes = size; }), Decoded::kInvalid) << size;
 }
 
-TEST(GoldenDecode, RefusesAWishOfNobody) {
+TEST(GoldenDecode, RefusesAHearingRequestWithoutAListener) {
   HearingWish wish = golden_hearing(), decoded;
   wish.listener = GuestId();
   const Bytes bytes = encoded(wish);

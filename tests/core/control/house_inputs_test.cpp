@@ -63,7 +63,7 @@ class HouseInputsTest : public ::testing::Test {
   std::vector<std::string> reported_;
 };
 
-TEST_F(HouseInputsTest, TakesCapturesOfAGuestFromTheBusOnlyWhereThatIsStated) {
+TEST_F(HouseInputsTest, AcceptsCapturesOfAGuestFromTheBusOnlyIfConfigured) {
   HouseInputs::Options options;
   options.from_bus = {kOtherGuest};
   open(std::move(options));
@@ -83,7 +83,7 @@ TEST_F(HouseInputsTest, TakesCapturesOfAGuestFromTheBusOnlyWhereThatIsStated) {
   EXPECT_EQ(poses_, (std::map<std::string, int>{{"alice", 1}, {"bob", 2}}));
 }
 
-TEST_F(HouseInputsTest, OfAllGuestsTakesFromTheBusThoseThatAreStated) {
+TEST_F(HouseInputsTest, AcceptsOnlyConfiguredGuestsFromTheBusWhenAllAreSubscribed) {
   HouseInputs::Options options;
   options.from_bus = {kOtherGuest};
   open(std::move(options));
@@ -95,7 +95,7 @@ TEST_F(HouseInputsTest, OfAllGuestsTakesFromTheBusThoseThatAreStated) {
   EXPECT_EQ(poses_, (std::map<std::string, int>{{"alice", 1}, {"bob", 1}}));
 }
 
-TEST_F(HouseInputsTest, AHostedGuestIsTakenFromThisProcessAlone) {
+TEST_F(HouseInputsTest, AcceptsAHostedGuestFromThisProcessOnly) {
   HouseInputs::Options options;
   options.hosted = options.from_bus = {kOwnGuest};
   open(std::move(options));

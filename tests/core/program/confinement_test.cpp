@@ -76,7 +76,7 @@ TEST_F(ConfinementTest, AllowsMemoryFilesAndThreads) {
   EXPECT_TRUE(confined) << confined.error().what;
 }
 
-TEST_F(ConfinementTest, ReportsThatItIsOn) {
+TEST_F(ConfinementTest, ReportsThatAThreadIsConfined) {
   bool is_on = false;
   std::thread([&] { is_on = confine_thread(); }).join();
   EXPECT_TRUE(is_on);

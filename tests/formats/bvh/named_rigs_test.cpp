@@ -179,7 +179,7 @@ std::vector<ToolWords> words_of_tools() {
   };
 }
 
-TEST(NamedRigs, AreReadInTheWordsOfManyTools) {
+TEST(NamedRigs, AreReadWithTheNamesOfManyTools) {
   for (const auto& [tool, words] : words_of_tools()) {
     BuiltFigure figure = built_human(words);
     bend(figure, words);
@@ -237,7 +237,7 @@ TEST(NamedRigs, OfEverySampleAreFoundByShapeToo) {
   }
 }
 
-TEST(NamedRigs, TakeTheBoneAndNotItsHelperOfTheSameWords) {
+TEST(NamedRigs, UseTheBoneAndNotAHelperWithTheSameName) {
   RigWords words;
   words.lower_arm = "Lo<Arm";
   words.shin = "LoLeg_<";
@@ -267,7 +267,7 @@ TEST(NamedRigs, TakeTheBoneAndNotItsHelperOfTheSameWords) {
 }
 
 // Two joints in the middle named as thighs, the real ones below with names that mean nothing.
-TEST(NamedRigs, GoByTheShapeWhereNamesGiveNoHuman) {
+TEST(NamedRigs, UseTheShapeIfNamesGiveNoHumanFigure) {
   BuiltFigure figure = built_human({});
   bend(figure, {});
   for (const char* side : {"Left", "Right"}) {

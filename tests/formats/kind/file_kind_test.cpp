@@ -30,7 +30,7 @@ class FileKinds : public testing::Test {
   TestFolder folder_{"file-kinds"};
 };
 
-TEST(FileContent, TellsKindsByTheirFirstBytes) {
+TEST(FileContent, RecognisesKindsByTheirFirstBytes) {
   const std::pair<std::string_view, FileContent> kCases[] = {
       {"", FileContent::kEmpty},
       {kLogHead, FileContent::kLcmLog},
@@ -62,19 +62,19 @@ TEST(FileContent, FindsALogWhoseBeginningIsDamaged) {
   EXPECT_EQ(content_of(std::string(100, '\xAA') + std::string(kLogHead)), FileContent::kLcmLog);
 }
 
-TEST_F(FileKinds, GoByTheContentWhateverTheNameSays) {
+TEST_F(FileKinds, AreRecognisedByContentRegardlessOfTheName) {
   EXPECT_EQ(input_kind(write("lcmlog-2026-11-28.00", kLogHead)).value(), FileKind::kLcm);
   EXPECT_EQ(input_kind(write("take.txt", "HIERARCHY\nROOT a\n")).value(), FileKind::kBvh);
   EXPECT_EQ(input_kind(write("take.lcm", "\x89MCAP0\r\n")).value(), FileKind::kMcap);
 }
 
-TEST_F(FileKinds, GoByTheNameWhereTheContentDoesNotTell) {
+TEST_F(FileKinds, AreRecognisedByNameIfTheContentIsAmbiguous) {
   EXPECT_EQ(input_kind(write("take.BVH", "???")).value(), FileKind::kBvh);
   EXPECT_EQ(input_kind(write("empty.lcm", "")).value(), FileKind::kLcm);
   EXPECT_EQ(input_kind(folder_.path("not-there.glb")).value(), FileKind::kGlb);
 }
 
-TEST_F(FileKinds, NameWhatAFileIsAndWhatTakesIt) {
+TEST_F(FileKinds, ErrorsNameTheKindAndTheProgramThatReadsIt) {
   EXPECT_NE(error_of("types.lcm", kLcmTypeText)
                 .find("types.lcm: an LCM type definition, not a recorded dance; lcm-gen takes it"),
             std::string::npos);

@@ -35,7 +35,7 @@ class RecordedFiles : public testing::Test {
   TestFolder folder_{"recorded"};
 };
 
-TEST_F(RecordedFiles, BecomeALogForPlayersThatGoesWithThem) {
+TEST_F(RecordedFiles, BecomeATemporaryLogForPlayers) {
   const McapBytes bytes = mcap_of(recorded_night(20));
   const std::string path =
       write("night", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
@@ -51,7 +51,7 @@ TEST_F(RecordedFiles, BecomeALogForPlayersThatGoesWithThem) {
   EXPECT_FALSE(UnpackedLog::open(gone).has_value());
 }
 
-TEST_F(RecordedFiles, TakeAClipsUnitAndRefuseItForOthers) {
+TEST_F(RecordedFiles, UseAUnitForClipsAndRefuseItForOtherKinds) {
   RecordedFileOptions options;
   options.retarget.metres_per_unit = 0.005;
   const auto file = RecordedFile::open(kMixamoBvh, options);

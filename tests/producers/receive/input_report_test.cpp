@@ -46,7 +46,7 @@ class InputReportTest : public testing::Test {
   MonoTime now_ = MonoTime::from_us(5'000'000);
 };
 
-TEST_F(InputReportTest, TellsWhereItListensWhenNothingArrivesForThreeSeconds) {
+TEST_F(InputReportTest, ReportsItsAddressWhenNothingArrivesForThreeSeconds) {
   EXPECT_TRUE(lines_of(3).empty());
   const auto lines = lines_of(60);
   ASSERT_EQ(lines.size(), 1u);
@@ -55,7 +55,7 @@ TEST_F(InputReportTest, TellsWhereItListensWhenNothingArrivesForThreeSeconds) {
   EXPECT_TRUE(has(lines[0], "--listen 0.0.0.0:39539")) << lines[0];
 }
 
-TEST_F(InputReportTest, TellsWhatArrivesAndTheCureWhenNothingIsUsable) {
+TEST_F(InputReportTest, ReportsUnusableDatagramsAndTheCure) {
   receiver_.now.from = Address::loopback(5000);
   EXPECT_TRUE(lines_of(3, 60).empty());
   const auto lines = lines_of(60, 60);
@@ -64,7 +64,7 @@ TEST_F(InputReportTest, TellsWhatArrivesAndTheCureWhenNothingIsUsable) {
             "vmc: 240 datagrams at 127.0.0.1:39539 from 127.0.0.1:5000 make no pose: the cure");
 }
 
-TEST_F(InputReportTest, TellsThatDatagramsArriveAtTheOtherLoopbackAddress) {
+TEST_F(InputReportTest, ReportsDatagramsAtTheOtherLoopbackAddress) {
   EXPECT_EQ(lines_of(5).size(), 1u);
   arrived_elsewhere_ = 12;
   const auto lines = lines_of(60);
@@ -74,7 +74,7 @@ TEST_F(InputReportTest, TellsThatDatagramsArriveAtTheOtherLoopbackAddress) {
   EXPECT_TRUE(has(lines[0], "--listen [::1]:39539")) << lines[0];
 }
 
-TEST_F(InputReportTest, TellsOnceThatPosesArriveAndAgainThatTheyDoNot) {
+TEST_F(InputReportTest, ReportsOnceThatPosesArriveAndOnceThatTheyStop) {
   EXPECT_TRUE(lines_of(10, 60, 60).empty());
   EXPECT_EQ(lines_of(60).size(), 1u) << "the sender has ended";
   const auto back = lines_of(60, 60, 60);
@@ -84,7 +84,7 @@ TEST_F(InputReportTest, TellsOnceThatPosesArriveAndAgainThatTheyDoNot) {
   EXPECT_TRUE(lines_of(10, 60, 60).empty());
 }
 
-TEST_F(InputReportTest, TellsOnceThatTheSendersClockIsUnusable) {
+TEST_F(InputReportTest, ReportsAnUnusableClockOfTheSenderOnce) {
   receiver_.now.is_clock_unusable = true;
   const auto lines = lines_of(60, 60, 60);
   ASSERT_EQ(lines.size(), 1u);

@@ -57,7 +57,7 @@ std::vector<std::uint8_t> vmc_bone_of_doubles() {
 
 std::vector<std::uint8_t> bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
 
-TEST_F(ReceiveProgram, TellsThatVmcIsSentToTheOtherLoopbackAddress) {
+TEST_F(ReceiveProgram, ReportsVmcThatIsSentToTheOtherLoopbackAddress) {
   start({"--from", "vmc"});
   EXPECT_TRUE(tells("vmc: nothing arrives at 127.0.0.1:39539")) << talk();
   EXPECT_TRUE(tells("--listen [::1]:39539", *Address::resolve("[::1]:39539"),
@@ -65,20 +65,20 @@ TEST_F(ReceiveProgram, TellsThatVmcIsSentToTheOtherLoopbackAddress) {
       << talk();
 }
 
-TEST_F(ReceiveProgram, TellsThatVmcHasDoubles) {
+TEST_F(ReceiveProgram, ReportsVmcWithDoubles) {
   start({"--from", "vmc"});
   EXPECT_TRUE(tells("let the program send floats", Address::loopback(39539), vmc_bone_of_doubles()))
       << talk();
 }
 
-TEST_F(ReceiveProgram, TellsThatRokokoSendsAnOlderVersion) {
+TEST_F(ReceiveProgram, ReportsAnOlderVersionOfRokoko) {
   start({"--from", "rokoko"});
   EXPECT_TRUE(tells("choose JSON v3", Address::loopback(14043),
                     bytes_of(R"({"version":"2,0","timestamp":1.0,"actors":[]})")))
       << talk();
 }
 
-TEST_F(ReceiveProgram, TellsThatUnicastNatNetNeedsAServer) {
+TEST_F(ReceiveProgram, ReportsThatUnicastNatNetNeedsAServer) {
   start({"--from", "natnet", "--listen", "127.0.0.1:1511"});
   EXPECT_TRUE(tells("natnet: nothing arrives at 127.0.0.1:1511")) << talk();
   EXPECT_NE(talk().find("?server="), std::string::npos) << talk();

@@ -15,7 +15,7 @@ constexpr std::size_t kCoupleFrames = 1000;
 const std::vector<std::string> kCouples{"cmu_60_05_salsa", "cmu_61_05_salsa", "cmu_60_12_salsa",
                                         "cmu_61_12_salsa"};
 
-TEST(PredictCoupleTakes, ThePartnersHandsTellWhereHandsAre) {
+TEST(PredictCoupleTakes, ThePartnersHandsImproveThePredictionOfHands) {
   auto takes = real_takes(kCouples, kCoupleFrames);
   if (takes.empty()) GTEST_SKIP() << "no real takes beside this tree";
   const auto couples = couples_of(std::move(takes));

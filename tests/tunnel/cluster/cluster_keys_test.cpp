@@ -67,7 +67,7 @@ TEST(ClusterKeys, AWrongEntryOpensNothingAndIsOneWarning) {
   }
 }
 
-TEST(ClusterKeys, TellWhetherAServerHasAnotherIdentityThanTheCluster) {
+TEST(ClusterKeys, DetectAServerWithAnotherIdentityThanTheClusters) {
   const PublicKey own = PrivateKey::make().public_key();
   ClusterKeys keys;
   EXPECT_FALSE(keys.other_identity(own)) << "no guest has a key yet";
@@ -97,7 +97,7 @@ TEST(ClusterKeys, NamesThatNoneCanHaveOpenNothing) {
   EXPECT_NE(said->find("and 4 more"), std::string::npos) << *said;
 }
 
-TEST(ClusterKeys, OfABucketThatWasLostStayAndAreNamed) {
+TEST(ClusterKeys, AreKeptAndNamedWhenTheirBucketWasLost) {
   ClusterKeys keys;
   for (const char* name : {"alice", "bob", "carol"}) keys.take(name, line_of(key_entry(name)));
   EXPECT_TRUE(keys.take_changed());

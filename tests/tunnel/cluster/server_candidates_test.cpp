@@ -19,7 +19,7 @@ wire::ServerList list(const std::vector<std::string>& texts) {
 }
 const MonoTime kStart = MonoTime::from_us(1'000'000);
 
-TEST(AddressScope, TellsFromWhereAnAddressCanBeReached) {
+TEST(AddressScope, ClassifiesAddressesByTheNetworksThatReachThem) {
   const std::vector<std::pair<const char*, Address::Scope>> expected{
       {"127.0.0.1", Address::Scope::kMachine},
       {"[::1]", Address::Scope::kMachine},

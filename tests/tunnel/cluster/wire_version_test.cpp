@@ -50,7 +50,7 @@ TEST(WireVersion, AHelloOfThisVersionIsWelcomeAndGetsTheWholeRoster) {
   EXPECT_EQ(heard.roster[0].parts, 4);
 }
 
-TEST(WireVersion, OtherVersionsAreRefusedWithTheNumberOfThisOne) {
+TEST(WireVersion, OtherVersionsGetARefusalWithTheServersVersion) {
   for (const std::uint8_t version : {std::uint8_t{5}, std::uint8_t{7}}) {
     const Heard heard = hello_of(version);
     EXPECT_FALSE(heard.welcome);

@@ -207,7 +207,7 @@ TEST(KeyQuota, AvatarsOfAllSessionsOfOneKeyShareItsMemory) {
   EXPECT_EQ(bob.files[guest("alice")], file.bytes);
 }
 
-TEST(KeyUses, AKeyThatComesAgainHasTheTokensThatItLeft) {
+TEST(KeyUses, AReturningKeyHasTheTokensThatItLeft) {
   KeyUses uses(2);
   ServerLimits limits;
   limits.datagrams_per_second = 1.0;

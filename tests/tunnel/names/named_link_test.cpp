@@ -36,7 +36,7 @@ class NamedServer {
   std::atomic<int> count_ = 0;
 };
 
-TEST_F(NamedLink, ALinkWhoseServersNameIsUnknownConnectsWhenItIsKnown) {
+TEST_F(NamedLink, ALinkConnectsOnceAnUnknownNameIsResolved) {
   NamedServer named(0);
   LinkOptions of;
   of.room = guest("salsa");

@@ -22,7 +22,7 @@ TEST(InterestRule, IsWrittenByName) {
   EXPECT_EQ(divider_of(parse_interest({}), "dora"), 1) << "who says nothing wants all";
 }
 
-TEST(InterestRule, NamesWhatIsWrongAndNotWhereItStood) {
+TEST(InterestRule, ErrorsQuoteTheWrongWordAndNoOption) {
   for (const char* wrong : {"", "alice", "alice=", "alice=-1", "alice=256", "alice=1x", "=1",
                             "Alice=1", "default=x", "alice = 1", "alice=99999999999"}) {
     const auto refused = parse_interest(std::vector<std::string>{wrong});
@@ -35,7 +35,7 @@ TEST(InterestRule, NamesWhatIsWrongAndNotWhereItStood) {
   EXPECT_FALSE(parse_interest(std::vector<std::string>{"default=1", "default=1"}));
 }
 
-TEST(InterestRule, HasAnEnd) {
+TEST(InterestRule, RefusesMoreGuestsThanItsBound) {
   std::vector<std::string> words{"default=0"};
   for (std::size_t i = 0; i < kMaxInterestGuests; ++i)
     words.push_back("g" + std::to_string(i) + "=1");

@@ -1,5 +1,5 @@
-// A guest for tests: the entry in a server's keys, the private key of the guest's house, and the key
-// with which the guest's link opens a session.
+// A guest for tests: the entry in a server's keys, the private key of the guest's house, and the
+// key with which the guest's link opens a session.
 #pragma once
 
 #include <string_view>

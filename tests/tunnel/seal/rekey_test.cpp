@@ -151,7 +151,7 @@ TEST_F(Rekeying, EndsWithTheSessionThatTheServerEnds) {
   EXPECT_EQ(house->sealed, 2);
 }
 
-TEST_F(Rekeying, AcceptsWhatIsLateForAWhileAndNotForGood) {
+TEST_F(Rekeying, AcceptsLateDatagramsForALimitedTime) {
   talk(Duration::ms(600));
   ASSERT_EQ(rekeyings(), 0u);
   std::vector<SealedStreet::Passing> held;

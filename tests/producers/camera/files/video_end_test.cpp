@@ -22,7 +22,7 @@ std::string mp4_boxes(std::initializer_list<std::pair<const char*, std::size_t>>
   return bytes;
 }
 
-TEST(VideoEnd, OfAnMp4IsToldMissingFromDamaged) {
+TEST(VideoEnd, DistinguishesAMissingEndOfAnMp4FromADamagedFile) {
   SKIP_WITHOUT_MEDIA();
   const TestFolder folder("video-end");
   const std::string path = folder.path("a.mp4");

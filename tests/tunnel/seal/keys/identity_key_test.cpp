@@ -78,7 +78,7 @@ TEST(PublicKey, IsAPointOfTheCurve) {
 }
 
 // First case of P-256 in NIST's test vectors for ECC CDH (SP 800-56A).
-TEST(IdentityKey, AgreesAsNistsTestVectorSays) {
+TEST(IdentityKey, MatchesTheTestVectorOfNist) {
   const auto own = PrivateKey::parse(
       base64url(bytes_of_hex("7d7dc5f71eb29ddaf80d6214632eeae03d9058af1fb6d22ed80badb62bc1a534")));
   const auto other = PublicKey::parse(base64url(

@@ -90,7 +90,7 @@ TEST(KeyRing, SaysWhichLineIsWrongAndNeverTheKey) {
   says("alice guest * " + key + "\nalice host * " + key, "line 2: 'alice' has a key already");
 }
 
-TEST(KeyRing, KeepsUntilWhenAKeyIsGood) {
+TEST(KeyRing, KeepsTheExpiryOfAKey) {
   const std::string key = PrivateKey::make().public_key().text(),
                     other = PrivateKey::make().public_key().text();
   const std::string text = "alice guest * " + key + " until 20261231T2359Z\n" +
@@ -119,7 +119,7 @@ TEST(KeyRing, KeepsUntilWhenAKeyIsGood) {
   }
 }
 
-TEST(KeyRing, AKeyThatExpiredMakesWayForAnother) {
+TEST(KeyRing, ReplacesAnExpiredKey) {
   KeyRing ring;
   KeyEntry alice;
   alice.name = *GuestId::parse("alice");
