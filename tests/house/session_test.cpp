@@ -37,7 +37,7 @@ TEST(HouseFile, ReadsAWholeHouse) {
   EXPECT_EQ(session->consumers[0].options.file, "/home/alice/out.csv");
 }
 
-TEST(HouseFile, SaysHowGuestsAreDrawn) {
+TEST(HouseFile, ReadsHowGuestsAreDrawn) {
   const auto session =
       parse_session(std::string(kHouse) +
                         "avatar_bytes_per_second = 0\n"
@@ -62,7 +62,7 @@ TEST(HouseFile, SaysHowGuestsAreDrawn) {
             std::string::npos);
 }
 
-TEST(HouseFile, HoldHandsLeavesPosesAsFastAsTheyCome) {
+TEST(HouseFile, HoldHandsKeepsTheRateOfPosesUnlessTheyArePredicted) {
   const std::string route =
       std::string(kHouse) + "[[route]]\nfrom = \"POSE/capture/*\"\nto = \"POSE/stage/*\"\n";
   const auto session = parse_session(route + "through = [\"hold-hands\"]\n", "s.toml");
@@ -79,7 +79,7 @@ TEST(HouseFile, HoldHandsLeavesPosesAsFastAsTheyCome) {
 }
 
 // toml++'s texts about its grammar never reach a user.
-TEST(HouseFile, NamesThePlaceAndTheCureWhereItIsNoToml) {
+TEST(HouseFile, SyntaxErrorsNameThePlaceAndTheCure) {
   EXPECT_EQ(error_of("[house]\n\tquality_mm == 3\n"),
             "s.toml:2:14: no TOML can be read from here on in 'quality_mm == 3'; write NAME = "
             "VALUE, and texts in quotes");
@@ -95,14 +95,14 @@ TEST(HouseFile, NamesThePlaceAndTheCureWhereItIsNoToml) {
     EXPECT_EQ(error_of(broken).find("Error while"), std::string::npos) << error_of(broken);
 }
 
-TEST(HouseFile, ListsTheConsumersThatThereAre) {
+TEST(HouseFile, AnUnknownConsumerIsAnErrorThatListsAllConsumers) {
   const std::string error = error_of(std::string(kHouse) + "[[listen]]\nto = \"smoke\"\n");
   EXPECT_EQ(error.rfind("s.toml:5:", 0), 0u) << error;
   for (const std::string& name : consumer_names())
     EXPECT_NE(error.find(name), std::string::npos) << error;
 }
 
-TEST(HouseFile, NeedsHiddenGuestsForWhatTheyFeedBesidesWindows) {
+TEST(HouseFile, NeedsHiddenGuestsForConsumersOtherThanWindows) {
   const std::string channel =
       "[[channel]]\nname = \"LIGHT/desk\"\nclass = \"state\"\nrate = 5\n"
       "size = 300\nlayout = \"i32\"\ndirection = ";
@@ -120,7 +120,7 @@ TEST(HouseFile, NeedsHiddenGuestsForWhatTheyFeedBesidesWindows) {
   }
 }
 
-TEST(HouseFile, SaysWhatPosesMayCostAndHowExactTheyAre) {
+TEST(HouseFile, ReadsThePrecisionAndByteRateOfPoses) {
   const auto usual = parse_session(kHouse, "s.toml");
   ASSERT_TRUE(usual);
   EXPECT_EQ(usual->quality_mm, 1.0);
@@ -136,7 +136,7 @@ TEST(HouseFile, SaysWhatPosesMayCostAndHowExactTheyAre) {
   EXPECT_EQ(error.find('\n'), std::string::npos) << error;
 }
 
-TEST(HouseFile, SaysWhomItWantsToHearInTheWordsOfTheCommandLine) {
+TEST(HouseFile, ReadsInterestInTheSyntaxOfTheCommandLine) {
   const GuestId bob = *GuestId::parse("bob"), carol = *GuestId::parse("carol");
   const auto usual = parse_session(kHouse, "s.toml");
   ASSERT_TRUE(usual);
@@ -148,7 +148,7 @@ TEST(HouseFile, SaysWhomItWantsToHearInTheWordsOfTheCommandLine) {
   EXPECT_EQ(given->interest.divider_of(carol), 4);
 }
 
-TEST(HouseFile, SaysWhatIsWrongWithWhomItWants) {
+TEST(HouseFile, ErrorsQuoteTheWrongWordOfAnInterest) {
   const std::string house = kHouse;
   std::string error = error_of(house + "want = [\"bob=256\"]\n");
   EXPECT_EQ(error.rfind("s.toml:4:8: [house] want: 'bob=256': write NAME=N", 0), 0u) << error;
@@ -178,7 +178,7 @@ TEST(HouseFile, ReadsChannels) {
   EXPECT_EQ(session->channels[1].guest.view(), "alice");
 }
 
-TEST(HouseFile, SaysWhatIsWrongWithAChannel) {
+TEST(HouseFile, ErrorsNameTheFaultOfAChannel) {
   const std::string channel = std::string(kHouse) + "[[channel]]\nname = \"LIGHT/desk\"\n";
   std::string error = error_of(channel + "class = \"state\"\n");
   EXPECT_EQ(error.rfind("s.toml:5:8: ", 0), 0u) << error;
@@ -194,7 +194,7 @@ TEST(HouseFile, SaysWhatIsWrongWithAChannel) {
   EXPECT_NE(error_of(many).find("at most 16"), std::string::npos) << error_of(many);
 }
 
-TEST(HouseFile, ReadsTheMusicWhichFollowsItsRoomUnlessToldOtherwise) {
+TEST(HouseFile, ReadsTheMusicWhichFollowsItsRoomByDefault) {
   const auto alone = parse_session("[house]\n[music]\nfile = \"a.ogg\"\n", "h/s.toml");
   ASSERT_TRUE(alone) << alone.error().what;
   ASSERT_TRUE(alone->music);
@@ -223,7 +223,7 @@ TEST(HouseFile, ReadsTheMusicWhichFollowsItsRoomUnlessToldOtherwise) {
   EXPECT_NE(error_of("[music]\nfil = \"a\"\n").find("'fil'"), std::string::npos);
 }
 
-TEST(HouseFile, ReadsTheStyleOfTheHouseBandOrThatThereIsNone) {
+TEST(HouseFile, ReadsTheStyleOfTheHouseBandOrNone) {
   const auto with = [](const std::string& music) {
     return parse_session("[house]\nguest = \"ann\"\nserver = \"h:1\"\n[music]\n" + music, "s.toml");
   };
@@ -246,7 +246,7 @@ TEST(HouseFile, ReadsTheStyleOfTheHouseBandOrThatThereIsNone) {
             std::string::npos);
 }
 
-TEST(HouseFile, ReadsWhoSpeaksAndHow) {
+TEST(HouseFile, ReadsTheVoiceOfAGuest) {
   const auto plain = parse_session(std::string(kHouse) + "[voice]\n", "s.toml");
   ASSERT_TRUE(plain) << plain.error().what;
   ASSERT_TRUE(plain->voice);
@@ -288,7 +288,7 @@ TEST(HouseFile, ReadsWhoSpeaksAndHow) {
   EXPECT_NE(error_of("[house]\n[voice]\n").find("who speaks"), std::string::npos);
 }
 
-TEST(HouseFile, WithoutRoutesGetsTheUsualTwo) {
+TEST(HouseFile, HasTwoRoutesByDefault) {
   const auto session = parse_session(kHouse, "s.toml");
   ASSERT_TRUE(session);
   ASSERT_EQ(session->routes.size(), 2u);
@@ -310,7 +310,7 @@ TEST(HouseFile, RefusesAMisspeltKeyAndListsTheKnownOnes) {
   EXPECT_NE(error.find("server"), std::string::npos);
 }
 
-TEST(HouseFile, RefusesWhatCannotBe) {
+TEST(HouseFile, RefusesImpossibleValues) {
   const std::string house = kHouse;
   const std::string route = house + "[[route]]\n";
   for (const std::string& text :

@@ -106,7 +106,7 @@ TEST(LobbyModel, ShowsARoomOnceWithAndWithoutTheUsualPort) {
   EXPECT_EQ(model.settings.window.rooms[1].server, "a.org:7401");
 }
 
-TEST(LobbyModel, RemembersARoomOnlyWhenItWasEntered) {
+TEST(LobbyModel, RemembersARoomOnlyAfterJoiningIt) {
   LobbyModel model = model_at("");
   model.choose_room({"salsa", "a.org"});
   EXPECT_TRUE(model.settings.window.rooms.empty());
