@@ -37,7 +37,7 @@ class RoomHost {
   void copy_message(LobbyModel& model);
   void save_page(LobbyModel& model);
   void open_page_folder(LobbyModel& model);
-  // Whose keys there are.
+  // Requests the list of guests that have a key.
   void list(LobbyModel& model);
 
   // Reads the programs' output; requests the list of guests while it is shown. True if the model

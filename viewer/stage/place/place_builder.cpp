@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/smooth_step.h"
+
 namespace dance {
 
 using Eigen::Vector3f;
@@ -19,11 +21,6 @@ constexpr float kLeastDistance_m = 0.15f;
 
 int pieces_of(float length_m) {
   return std::clamp(static_cast<int>(std::ceil(length_m / kPanelPiece_m)), 1, kMostPanelPieces);
-}
-
-float smooth(float x) {
-  x = std::clamp(x, 0.0f, 1.0f);
-  return x * x * (3.0f - 2.0f * x);
 }
 
 }  // namespace
@@ -92,7 +89,7 @@ float PlaceBuilder::openness(const Vector3f& p, const Vector3f& n) const {
     note(n.x(), std::min(p.x() - room.left_m, room.right_m - p.x()));
     note(n.z(), std::min(p.z() - room.back_m, room.front_m - p.z()));
   }
-  return kInCorner + (1.0f - kInCorner) * smooth(nearest / kCorner_m);
+  return kInCorner + (1.0f - kInCorner) * smooth_step(nearest / kCorner_m);
 }
 
 // light = Σ colour · facing / (1 + (d / reach)²), and the mood's light from above and below.
