@@ -19,7 +19,7 @@ while [ $# -gt 0 ]; do
     --strict) strict=yes ;;
     -R | -E) only+=("$1" "${2:?$1 takes an expression}"); export DANCE_EACH_TEST=1; shift ;;
     -L) only+=("$1" "${2:?$1 takes an expression}"); shift ;;
-    # CTest leaves out only what several -LE match together: they become one.
+    # CTest leaves a test out only if every -LE matches it, so several are joined into one.
     -LE) left_out+="|${2:?$1 takes an expression}"; shift ;;
     -h | --help) sed -n '2,12s/^# \{0,1\}//p' "$0"; exit 0 ;;
     *) echo "dance test: there is no option '$1'; --help lists them" >&2; exit 2 ;;
@@ -148,7 +148,7 @@ over() {
 check_processor_time() {
   local log=build/release.last_test.log entry test used names
   [ -f "$log" ] || return 0
-  # A first line of its own, as awk tells the files apart by their lines.
+  # The file gets an extra first line: awk recognises the first file by its line numbers, and it may be empty.
   { echo "-"; ctest --test-dir build/release -N -L long 2>/dev/null | sed -n 's/^ *Test *#[0-9]*: //p'; } >build/long_entries.txt
   over "$log" $printed_over_s >build/slow.txt
   [ -s build/slow.txt ] || return 0

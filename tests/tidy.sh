@@ -26,7 +26,7 @@ command -v clang-tidy >/dev/null || { echo "tidy.sh: apt-get install clang-tidy"
 [ ${#files[@]} -gt 0 ] || mapfile -t files < <(git ls-files '*.cpp')
 build=build/tidy
 mkdir -p $build
-# Each source by itself, as clang compiles it: the dev preset joins none.
+# The dev preset makes no unity files, so each source is checked by itself.
 cmake --preset dev -B $build -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_C_COMPILER=clang >$build.configure.log 2>&1 ||
   { tail -n 30 $build.configure.log; exit 1; }
 mapfile -t generated < <(ninja -C $build -t targets all | sed -n 's/^\([^ ]*\.\(h\|hpp\)\): CUSTOM_COMMAND$/\1/p')

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""No two types of one qualified name: the linker would keep one of them for a whole program.
+"""Checks that no two types have the same qualified name: the linker would keep one of them for a whole program.
 
 Reads the C++ sources of the tree (or those given), follows their namespaces and prints each class,
 struct, union or enum that two files define under one name. Types inside of types, functions and

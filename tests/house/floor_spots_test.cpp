@@ -191,7 +191,7 @@ TEST(FloorSpots, CouplesAreTwoMetresApart) {
 }
 
 // Somebody who was there at the arrival comes near for a moment, much later.
-TEST(FloorSpots, CoupleStaysTogetherAfterAMomentaryOverlap) {
+TEST(FloorSpots, CoupleDoesNotPartAfterAMomentaryOverlap) {
   FloorSpots spots(guest("zoe"), std::nullopt, kBegin);
   const std::array<Vector3f, 2> hips{Vector3f(0, 1, 0), Vector3f(0, 1, 0.6f)};
   MonoTime now = kBegin;
