@@ -19,8 +19,8 @@ struct Steps {
   MonoTime time;  // when this was published
   std::uint64_t clock_id = 0;
   double tempo_bpm = 0.0;  // 0: not known
-  float weight = 0.0f;     // 0 = says nothing about the music … 1 = certain
-  int dancers = 0;         // whom it is of
+  float weight = 0.0f;     // 0 = no evidence of the music … 1 = certain
+  int dancers = 0;         // the number whose steps these are
   bool is_remote = false;  // guests of other houses: nobody dances here
 };
 

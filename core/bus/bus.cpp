@@ -61,7 +61,7 @@ class PatternSubscription final : public Listener {
         handler_(std::move(handler)) {}
 
   void take(const Arrival& arrival, SignalCounters& counters) override {
-    // Names that came from another house have the pattern's beginning too.
+    // The socket filters by beginning only: a message of another house's guest may arrive here too.
     if (!pattern_.matches(arrival.name)) return;
     if (arrival.size > max_bytes_) {
       ++counters.oversized;
@@ -133,7 +133,7 @@ struct Bus::Impl {
   Counters counters;
   std::vector<Listening> listeners;
   RefusedHandler on_refused;
-  int turns_until_look = 0;
+  int turns_until_check = 0;
 
   void listen(Names names, std::shared_ptr<Listener> listener) {
     // First, so that a message which arrives at once finds its listener.
@@ -161,9 +161,9 @@ struct Bus::Impl {
   // In a turn without messages the descriptor was readable because of a network report. While
   // every turn has messages, reports are read every 1024 turns.
   void follow_network(bool is_quiet) {
-    constexpr int kTurnsBetweenLooks = 1024;
-    if (!is_quiet && --turns_until_look > 0) return;
-    turns_until_look = kTurnsBetweenLooks;
+    constexpr int kTurnsBetweenChecks = 1024;
+    if (!is_quiet && --turns_until_check > 0) return;
+    turns_until_check = kTurnsBetweenChecks;
     const std::string change = socket.follow_network();
     if (!change.empty()) print_network_change(url, change);
   }

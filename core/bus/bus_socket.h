@@ -26,7 +26,7 @@ namespace dance {
 
 class BusSocket {
  public:
-  // Datagrams that receive() returns at most.
+  // The most datagrams that one receive() returns.
   static constexpr std::size_t kBatch = 16;
 
   static Result<BusSocket> open(const BusAddress& address);

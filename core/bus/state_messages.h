@@ -114,7 +114,7 @@ struct Profile {
 // Titles and names of files must be plain text (core/base/text/plain_text.h).
 bool is_valid(const Music& music);
 bool is_valid(const RoomSong& song);
-// They differ in nothing but their times.
+// True if they differ only in their times.
 bool is_same_song(const RoomSong& a, const RoomSong& b);
 bool is_valid(const Scene& scene);
 bool is_valid(const Avatar& avatar);

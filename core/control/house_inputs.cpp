@@ -66,7 +66,7 @@ void HouseInputs::add(std::shared_ptr<Subscription> subscription) {
   if (from.where != Where::kCapture) return;
   const bool takes_any =
       from.guest.is_set() ? is_from_bus(signal, from.guest) : !options_.from_bus.empty();
-  // Poses always, to report those that are not taken.
+  // Subscribes to poses in any case, to report those that are not accepted.
   if (takes_any || signal == Signal::kPose)
     bus_.add(std::make_shared<BusGate>(*this, std::move(subscription)));
 }

@@ -7,8 +7,8 @@
 // Ownership:    refers to port, bus and poller, which must outlive it; owns the socket. Nothing is
 //               allocated once each guest has been seen.
 // Threads:      the poller's.
-// Failure:      problem() says why there is no socket. Poses on the bus that are not taken are
-//               counted, and reported where no others of that guest are received.
+// Failure:      problem() is the reason why there is no socket. Refused poses on the bus are
+//               counted, and reported if no accepted ones of that guest arrive.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ class HouseInputs final : public SignalPort {
   };
   static constexpr std::uint32_t kReportedEach = 120;
 
-  // `port` takes what this process publishes, and other subscriptions; `bus` is the bus itself.
+  // `port` has what this process publishes and gets all other subscriptions; `bus` is the bus.
   HouseInputs(SignalPort& port, SignalPort& bus, Options options, Poller& poller);
   ~HouseInputs() override;
   HouseInputs(const HouseInputs&) = delete;

@@ -109,7 +109,7 @@ void HouseSender::send(const Channel& channel, const AnyMessage& message) {
   if (houses_.empty()) return;
   MessageBuffer buffer;
   const std::size_t size = message.encode(buffer);
-  // The name with the zero at its end.
+  // The name includes its final zero.
   const std::span<const std::uint8_t> name(reinterpret_cast<const std::uint8_t*>(channel.c_str()),
                                            channel.view().size() + 1);
   for (House& house : houses_) {

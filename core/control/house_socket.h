@@ -6,8 +6,8 @@
 // Ownership:    HouseSocket owns its socket, HouseSender its connections; the poller must
 //               outlive them. Sending and receiving allocate nothing.
 // Threads:      the poller's.
-// Failure:      HouseSocket::open() says what is wrong with the user's folder of sockets. The
-//               sender counts what a house that does not read has lost.
+// Failure:      HouseSocket::open() names what is wrong with the user's folder of sockets. The
+//               sender counts the messages that a house that does not read has lost.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ class HouseSocket {
  public:
   using OnMessage = std::function<void(const Channel& channel, const Arrival& arrival)>;
 
-  // `bus_url` as the house's programs are given it; what stands behind a '?' makes no difference.
+  // `bus_url`: the LCM URL of the house's programs; the part after '?' is ignored.
   static Result<std::unique_ptr<HouseSocket>> open(std::string_view bus_url, OnMessage on_message,
                                                    Poller& poller);
 
@@ -60,7 +60,7 @@ class HouseSender {
   HouseSender(const HouseSender&) = delete;
   HouseSender& operator=(const HouseSender&) = delete;
 
-  // This process's own socket, which is sent nothing.
+  // Excludes this process's own socket from every send().
   void leave_out(std::string path) { left_out_ = std::move(path); }
   void send(const Channel& channel, const AnyMessage& message);
   std::size_t house_count() const { return houses_.size(); }

@@ -1,16 +1,17 @@
 // Maps the stamps of a sender that cannot be asked for its time, from when its datagrams arrive:
-// delay only ever adds, so the datagram that took least tells the offset best. What arrives later
-// than that was captured earlier. Where everything comes later for a whole second, it is no delay:
-// the sender's clock fell back, as that of a game engine does that caps the length of a frame.
+// delay only ever adds, so the datagram that took least gives the best offset. A datagram that
+// arrives later than that was captured earlier. If all come later for a whole second, it is no
+// delay: the sender's clock fell back, as that of a game engine does that caps the length of a
+// frame.
 //
 // Units/frames: theirs are plain microseconds of the sender's clock; ours is MonoTime. What is left
 //               is the shortest delay itself, which no one-way stream can tell.
 // Ownership:    plain value; never allocates.
 // Threads:      none inside; one owner.
-// Failure:      a stamp that jumps by more than a second begins anew; one that falls back by less
-//               is followed after a second. steps() counts both. While a sender's clock stands
+// Failure:      a stamp that jumps by more than a second resets the map; one that falls back by
+//               less is followed after a second. steps() counts both. While a sender's clock stands
 //               still, or ticks so seldom that a quarter of the stamps repeat, stamps give no
-//               capture times: the times of arrival are used, and is_unusable() says so.
+//               capture times: the times of arrival are used, and is_unusable() is true.
 // Source:       minimum filter as in RFC 5905 (NTP), clock filter algorithm, over one direction.
 #pragma once
 

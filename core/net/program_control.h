@@ -1,11 +1,11 @@
-// How a running program is told things from another terminal, a foot switch's script or a viewer:
-// one line of text in a datagram, within this user.
+// Commands to a running program from another terminal, a foot switch's script or a viewer: one line
+// of text in a datagram, between processes of one user.
 //
 // Units/frames: lines of kMostBytes at most.
 // Ownership:    ProgramControl owns its socket file; the poller must outlive it.
 // Threads:      the poller's.
-// Failure:      open() names a path that another program serves; tell_program() says that none
-//               does, or that the one there does not listen.
+// Failure:      open() names a path that another program serves; tell_program() reports whether a
+//               program received the command.
 #pragma once
 
 #include <functional>
@@ -40,26 +40,26 @@ class ProgramControl {
   Poller& poller_;
 };
 
-// Where the program of this kind hears that serves a guest on a bus, of this LCM URL.
+// Path for the `program` that serves one guest on the bus with this LCM URL.
 std::string control_path(std::string_view program, std::string_view bus_url, const GuestId& guest);
 // Path for a program that serves all guests of the bus.
 std::string control_path(std::string_view program, std::string_view bus_url);
-// Where several may, one by one: `path` with a number each.
+// Path for one of several such programs: `path` with a number.
 std::string numbered_control_path(const std::string& path, std::uint64_t number);
-// Their files, also those that killed programs left.
+// All such files, including those that killed programs left.
 std::vector<std::string> numbered_control_files(const std::string& path);
-// Of those that listen; removes what killed ones left.
+// The files whose programs listen; removes those that killed programs left.
 std::vector<std::string> numbered_control_paths(const std::string& path);
 
 using Told = LocalDatagramSender::Sent;
 Result<Told> tell_program(const std::string& path, std::string_view command);
-// All of numbered_control_paths(): how many heard it, and how many do not listen.
+// Sends to all of numbered_control_paths(): how many received it, and how many do not listen.
 struct ToldAll {
   int sent = 0;
   int deaf = 0;
 };
 Result<ToldAll> tell_programs(const std::string& path, std::string_view command);
-// "limit 0.4" after the word "limit": a number from 0 to 1; nothing where it is no such line.
+// "limit 0.4" after the word "limit": a number from 0 to 1; nullopt for any other line.
 std::optional<double> share_after(std::string_view word, std::string_view command);
 
 }  // namespace dance

@@ -324,8 +324,8 @@ bool machine_has_ipv6() {
 }
 
 Result<std::uint16_t> free_loopback_port() {
-  // Below the ports that the kernel gives away, and from another one on in each process: the port is
-  // still free when the program that it is for binds it.
+  // Ports below the kernel's ephemeral range, starting at another one in each process: so the port
+  // is still free when the program that it is for binds it.
   constexpr unsigned kFirst = 20'000, kPorts = 12'000, kPerProcess = 8;
   static std::atomic<unsigned> next = static_cast<unsigned>(::getpid()) * kPerProcess;
   for (unsigned tries = 0; tries < kPorts; ++tries) {

@@ -56,8 +56,8 @@ class UdpSocket final : public DatagramSink {
   // sent to, and what is sent to such a `from` leaves from there: on a machine with several
   // addresses peers accept no other answer.
   static Result<UdpSocket> serve(const Address& local, const UdpRoom& room = {});
-  // Hears a multicast group of IPv4, as other programs of this machine may at the same time; on the
-  // interface that has the address `interface`, or on the one of the system's choice.
+  // Receives from an IPv4 multicast group, which other programs of this machine may also do; on the
+  // interface that has the address `interface`, or on the one that the system chooses.
   static Result<UdpSocket> join(const Address& group, const Address& interface,
                                 const UdpRoom& room = {});
   // Exchanges datagrams with `peer` only.

@@ -42,8 +42,8 @@ class ChildProcess {
   };
 
   static Result<ChildProcess> start(const Options& options);
-  // A copy of this process, which calls `body` and ends with its result as the exit code. For what
-  // must not happen in this process; `body` may use what is safe after fork().
+  // A copy of this process, which calls `body` and ends with its result as the exit code. For work
+  // that must not run in this process; `body` may only use calls that are safe after fork().
   static Result<ChildProcess> start_copy(const std::function<int()>& body);
   ~ChildProcess();
   ChildProcess(ChildProcess&& other) noexcept;

@@ -30,8 +30,8 @@ namespace dance {
 // Confines the calling thread for the rest of its life, and the threads that it starts afterwards.
 bool confine_thread();
 
-// What an exception of a library means for the file that was being read, in our words: a library's
-// own text names no cure.
+// The reason, in our words, why a library's exception left a file unread: the library's own text
+// names no cure.
 std::string unread_because(const std::exception& failure);
 
 // A confined thread that runs one function after the other, for readers that keep a file open.

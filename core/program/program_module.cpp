@@ -12,7 +12,7 @@ namespace dance {
 
 std::string module_path(const std::string& file) {
   const auto prefix = std::filesystem::path(program_folder()).parent_path();
-  // Never from the folder that somebody happens to work in.
+  // Never relative to the current folder.
   return prefix.is_absolute() ? (prefix / "lib/dancegraph" / file).string() : std::string();
 }
 

@@ -1,4 +1,4 @@
-// The beginning of a text, at most so many bytes, which never ends within a UTF-8 character.
+// The longest beginning of a text that fits a number of bytes and ends between UTF-8 characters.
 #pragma once
 
 #include <cstddef>

@@ -82,7 +82,7 @@ inline std::string suggested_guest_id(std::string_view name) {
   return id;
 }
 
-// The error message for a text that GuestId::parse() refused, with a name that it takes.
+// The error message for a text that GuestId::parse() refused; suggests a valid id.
 inline std::string guest_id_error(std::string_view text) {
   std::string error = "'" + std::string(text) + "': " + kGuestIdRule;
   const std::string id = suggested_guest_id(text);

@@ -1,9 +1,9 @@
 // The beginning of the year 2026 (UTC) on this machine's monotonic clock: synthetic dancers count
-// from it, so that those of two machines are in step as exactly as the machines' wall clocks agree.
+// from it, so that dancers on two machines are in step as exactly as the wall clocks agree.
 //
 // Units/frames: MonoTime of this boot; before it, so negative.
 // Threads:      any.
-// Failure:      none; a wall clock that is set later has no effect on who has asked before.
+// Failure:      none; setting the wall clock later does not change a zero that was read before.
 #pragma once
 
 #include <chrono>

@@ -1,11 +1,11 @@
 // Messages from programs of this user to one program on this machine, over a Unix socket that keeps
-// their borders (SOCK_SEQPACKET), in the user's private folder.
+// them apart (SOCK_SEQPACKET), in the user's private folder.
 //
 // Units/frames: bytes; a message has kMostBytes at most.
 // Ownership:    LocalMessageServer owns its socket file and its connections; the poller must
 //               outlive it. Neither class allocates while messages pass.
 // Threads:      one owner each. Neither waits.
-// Failure:      open() says what is wrong. A connection of another user than this one or root is
+// Failure:      open() names the cause. A connection of another user than this one or root is
 //               closed and counted; no client can make the server wait.
 #pragma once
 

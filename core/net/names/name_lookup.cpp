@@ -4,6 +4,7 @@
 #include <poll.h>
 #include <pthread.h>
 
+#include <cerrno>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -82,7 +83,8 @@ ResolverAnswer look_up_name(const std::string& name, Duration timeout) {
   }
   (*lookup)->begin();
   pollfd readable{(*lookup)->fd(), POLLIN, 0};
-  ::poll(&readable, 1, static_cast<int>(timeout.count_ms()));
+  for (Duration left = timeout; left > Duration(); left = timeout - (mono_now() - begin))
+    if (::poll(&readable, 1, static_cast<int>(left.count_ms())) >= 0 || errno != EINTR) break;
   const auto done = (*lookup)->take();
   answer.took = mono_now() - begin;
   if (!done)
