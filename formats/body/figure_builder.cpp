@@ -85,7 +85,7 @@ void FigureBuilder::add_hem(FigureLayer& top) const {
                            at(Bone::kHips, {0, 0.085f, 0}), 0.099f, 1.52f));
 }
 
-// Steep enough against the arm that its edge is a line, however the arm is held.
+// The caps meet the arms steeply enough for a sharp edge in every pose of the arms.
 void FigureBuilder::add_caps(FigureLayer& top) const {
   for (const Side side : {Side::kLeft, Side::kRight}) {
     const bool left = side == Side::kLeft;

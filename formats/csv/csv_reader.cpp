@@ -251,8 +251,7 @@ Result<void> CsvReader::choose_times(const std::vector<std::string>& lines) {
   return {};
 }
 
-// Rows stand in the order in which they were received: that tells how a second clock goes with the
-// first.
+// Rows are in the order of reception, which gives the offset between a second clock and the first.
 void CsvReader::use_other_time(Row& row) {
   if (times_ == Times::kBoth) return;
   if (times_ == Times::kReceivedOnly) {

@@ -6,9 +6,9 @@
 // Ownership:    owns the file.
 // Threads:      none inside; one owner.
 // Failure:      open() names the file, and the column that is missing; read_into() a file that
-//               cannot be read to its end, holds no pose, or whose times are all rounded. Where one
-//               of its two times is, the other one is used, and note() says so. Rows that are not
-//               valid are left out and counted by cause.
+//               cannot be read to its end, holds no pose, or whose times are all rounded. If one
+//               of its two times is, the other one is used, and note() reports it. Invalid rows are
+//               left out and counted by cause.
 // Source:       offset_B = R_WP⁻¹ · (p_WB − p_WP).
 #pragma once
 

@@ -30,7 +30,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-// The kind that the end of the name tells.
+// The kind by the end of the name.
 Result<FileKind> kind_of(const std::string& path, bool is_output) {
   const std::string name = lower(path);
   std::string known;

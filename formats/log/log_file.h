@@ -48,7 +48,7 @@ class LogReader {
   std::optional<LogEvent> next();
   // After the last event: success at the end of the file, else the read error.
   Result<void> ended() const;
-  // Goes back to the beginning and counts skipped bytes anew.
+  // Goes back to the beginning and resets the count of skipped bytes.
   void rewind() {
     seek(0);
     skipped_bytes_ = 0;

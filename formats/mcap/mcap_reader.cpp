@@ -21,10 +21,10 @@ constexpr std::size_t kFirstStep_bytes = std::size_t{4} << 10;  // of a search b
 
 // Records that have to follow each other where reading goes on behind damage.
 constexpr int kRecordsInARow = 3;
-// A hostile file shall not cost minutes.
+// Bounds the time that a hostile file can cost.
 constexpr int kMostTries = 100'000;
 
-// Records without which something is missing; the others tell where in the file things are.
+// Records without which something is missing; the others are indexes of the file.
 constexpr bool is_content(McapOp op) {
   return op == McapOp::kSchema || op == McapOp::kChannel || op == McapOp::kMessage ||
          op == McapOp::kChunk;
@@ -220,7 +220,7 @@ bool McapReader::next_in_file() {
     is_at_end_ = true;
     return false;
   }
-  // What comes after the data only tells where in it things are.
+  // After the data there are only indexes of it.
   if (op == McapOp::kDataEnd || op == McapOp::kFooter) {
     was_finished_ = is_at_end_ = true;
     return false;

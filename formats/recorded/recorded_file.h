@@ -34,11 +34,11 @@ class RecordedFile {
   virtual ~RecordedFile() = default;
 
   virtual Result<void> read_into(RecordingSink& sink) = 0;
-  // Where its dancers were heard.
+  // The place, as in channels, that its poses are from.
   virtual Where where() const { return Where::kCapture; }
   // Assumptions and oddities, one line each.
   virtual std::vector<std::string> notes() const { return {}; }
-  // What could not be read; "" where that is nothing.
+  // One line on what could not be read; "" if nothing.
   virtual std::string lost() const { return ""; }
 };
 

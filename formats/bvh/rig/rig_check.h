@@ -1,5 +1,5 @@
-// Checks a rig against the figure: names of joints mean what they do only where the bones they give
-// are those of a human body.
+// Checks a rig against the figure: names of joints are trusted only if their bones have the
+// proportions of a human body.
 //
 // Units/frames: lengths in the file's units.
 // Threads:      none inside.

@@ -262,7 +262,7 @@ RigName read_rig_name(std::string_view text) {
   }
   RigName known = look_up(result.side, all);
   if (known.part == RigPart::kNone) {
-    // "CC_Base_L_Hand": beside a finger the hand tells nothing, alone it is the part.
+    // "CC_Base_L_Hand": beside a finger's name "Hand" has no meaning, alone it is the part.
     if (telling.empty() && result.side != RigSide::kMiddle && contains(words, "hand"))
       known = {result.side, RigPart::kHand};
     else

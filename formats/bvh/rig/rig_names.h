@@ -41,7 +41,7 @@ enum class RigPart : std::uint8_t {
   kMiddle,
   kRing,
   kLittle,
-  kNumberedFinger,  // resolve_numbered_fingers() makes one of the five of it
+  kNumberedFinger,  // until resolve_numbered_fingers() finds which finger
   kHelper,          // twist, roll and end joints: never a bone of their own
 };
 
@@ -50,7 +50,7 @@ struct RigName {
   RigPart part = RigPart::kNone;
   // Words and marks around the part's own: of two joints with one part the plainer is the bone.
   int decoration = 0;
-  bool is_palm = false;            // says metacarpal
+  bool is_palm = false;            // the name contains metacarpal
   std::string finger_digits = {};  // of kNumberedFinger
 };
 
@@ -60,7 +60,7 @@ std::string_view common_prefix(const std::vector<std::string_view>& names);
 
 RigName read_rig_name(std::string_view name);
 
-// Fingers are numbered from the thumb, from 0 or from 1; the numbers that are there tell which. A
+// Fingers are numbered from the thumb, from 0 or from 1; the numbers that occur decide which. A
 // thumb's metacarpal is a bone, that of another finger is a joint of the palm.
 void resolve_numbered_fingers(std::vector<RigName>& names);
 
