@@ -24,9 +24,9 @@ class ClusterBus {
     std::function<void(std::string_view subject, Bytes message, MonoTime now)> on_message;
     // No bytes: the key was erased. After watch() all keys that are there come first.
     std::function<void(std::string_view key, std::optional<Bytes> value, MonoTime now)> on_value;
-    // After that value none of the same watch() waits: all that is there has come.
+    // No further value of the same watch() is waiting: all present values have arrived.
     std::function<void(std::string_view key, MonoTime now)> on_all_read;
-    // The connection is back: what others wrote meanwhile comes, what was written here stands.
+    // The connection is back: values that others wrote meanwhile arrive, values written here stay.
     std::function<void(MonoTime now)> on_back;
     // NATS restarted with an empty disk and lost all values. Values that peers write again arrive.
     std::function<void(MonoTime now)> on_emptied;

@@ -17,7 +17,7 @@ constexpr int kRefusalsCount = 2;
 // A try at one of the server's addresses after the other, in a loop of its own.
 class BindingQuestion {
  public:
-  // `key`: of the sessions, which `identity` names.
+  // `key` opens the sessions; `identity` names it.
   BindingQuestion(const Invitation& invitation, std::string identity, const PresharedKey& key,
                   std::vector<Address> addresses, Poller& poller)
       : invitation_(invitation),

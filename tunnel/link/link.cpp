@@ -258,7 +258,7 @@ void Link::try_another_socket() {
   hellos_on_socket_ = core_.unanswered_hellos();
   if (server_.empty()) return;
   look_up_server(mono_now());
-  // Where the server has once answered, there it is.
+  // An address that has answered once is kept.
   std::size_t next = tried_;
   if (!has_server_answered()) {
     if (on_no_answer_) on_no_answer_(server_[tried_]);

@@ -130,7 +130,7 @@ class Link {
 
   Poller& poller_;
   std::vector<Address> server_;
-  std::size_t tried_ = 0;  // which of them the socket speaks to
+  std::size_t tried_ = 0;  // index of the address that the socket sends to
   ServerCandidates candidates_;
   ServerChoice choice_;
   ServerProbe probe_;
@@ -143,7 +143,7 @@ class Link {
   MonoTime told_at_;
   std::uint64_t clock_id_;
   MonoTime begin_;
-  std::unique_ptr<AddressWatch> addresses_;  // nullptr where the kernel does not tell
+  std::unique_ptr<AddressWatch> addresses_;  // nullptr: the kernel does not report changes
   std::unique_ptr<NameLookup> lookup_;       // nullptr: the server has no name
   MonoTime next_lookup_;                     // not before then
   std::function<void(const Address&)> on_new_address_;

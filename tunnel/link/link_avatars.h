@@ -32,7 +32,7 @@ class LinkAvatars {
  public:
   using Tell = std::function<void(const std::string& line)>;
 
-  // `tell` hears what a user should know; it may be empty.
+  // `tell` gets the lines for the user; it may be empty.
   LinkAvatars(AvatarStore store, WakeEvent wake, Poller& poller, Tell tell);
   ~LinkAvatars();
   LinkAvatars(const LinkAvatars&) = delete;

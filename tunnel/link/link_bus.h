@@ -34,8 +34,8 @@ class LinkBus {
   LinkBus(Bus& bus, Captures& captures, std::uint64_t clock_id)
       : bus_(bus), captures_(captures), port_(captures.port()), clock_id_(clock_id) {}
 
-  // What the link is to be opened with; on_state, on_refused and the guests' coming and going are
-  // the caller's to add.
+  // The handlers to open the link with; the caller adds on_state, on_refused and those for the
+  // coming and going of guests.
   LinkHandlers handlers();
   void attach(Link& link) {
     link_ = &link;
@@ -50,7 +50,7 @@ class LinkBus {
   // and older links need no support for them. Adds their rules in front of those that the link is
   // opened with, because the first rule that names a channel applies.
   static void add_own_rules(std::vector<ChannelRule>& rules);
-  // And the channels that the rules let out.
+  // Sends the channels that the rules let out, too.
   void send_channels(const std::vector<ChannelRule>& rules);
   // While guests of this house send HEARING/local, receives only voices that they request, among
   // those that `own` lets in.

@@ -27,7 +27,7 @@ struct NatsBucket {
   NatsHandle<kvStore> store;
   std::int64_t made_ns = 0;  // wall clock of NATS: tells a bucket from one that was made again
 };
-// The one that the options name; made where there is none. Waits for NATS servers that start.
+// Opens the bucket that the options name, or makes it. Waits for NATS servers that start.
 Result<NatsBucket> open_nats_bucket(natsConnection* connection, const NatsOptions& options);
 // The same, once: waits for NATS's answers only.
 Result<NatsBucket> try_nats_bucket(natsConnection* connection, const NatsOptions& options);

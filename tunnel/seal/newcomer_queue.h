@@ -1,5 +1,5 @@
 // First handshake datagrams of newcomers that have proved their address and wait for their turn. A
-// handshake costs the server some hundred microseconds, so only so many begin each second. The
+// handshake costs the server some hundred microseconds, so their number a second is limited. The
 // obvious queue, first come first served, is full of one attacker's datagrams; this one gives turns
 // to networks, and when it is full, drops from the network that has most datagrams in it.
 //

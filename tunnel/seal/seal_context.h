@@ -43,7 +43,7 @@ class SealContext {
     std::function<bool(ssl_st*, const std::uint8_t* cookie, std::size_t size)> check;
   };
 
-  // `server_key`: what the server names as its key, before anybody has proved anything.
+  // `server_key`: the key that the server claims; a handshake proves it.
   static Result<std::unique_ptr<SealContext>> for_server(
       const PublicKey& server_key, FindKey find_key, Cookies cookies,
       const std::optional<SealCertificates>& certificates);

@@ -1,6 +1,6 @@
-// The server's door: datagrams of the internet in, plaintext of peers who have proved who they are
-// out; and back. A peer that has proved nothing costs a bounded, small amount of work, is kept
-// nowhere, and is never answered with more bytes than it sent.
+// The sealed side of a server: turns datagrams from the internet into plaintext of peers who have
+// proved their identity, and back. A peer that has proved nothing costs a bounded, small
+// amount of work, is kept nowhere, and is never answered with more bytes than it sent.
 //
 // Units/frames: MonoTime of the server's clock; a peer is named by the id of its first session, and
 //               keeps the name when it gets new keys.
@@ -39,11 +39,11 @@ struct SealLimits {
   // Newcomers that wait until their handshake begins.
   std::size_t newcomers = 512;
   Duration handshake_time = Duration::s(5);
-  // A peer that is silent this long must begin anew; until then it comes back in one round trip.
+  // A peer that is silent this long needs a new handshake; until then it returns in one round trip.
   Duration silence = Duration::s(60);
   // First datagrams of strangers, which are answered and forgotten.
   SourceLimits::Rates strangers{100.0, 200.0, 10'000.0, 2000.0};
-  // Looks at cookies, which cost a little too.
+  // Checks of cookies, which cost a little too.
   SourceLimits::Rates cookies{200.0, 400.0, 20'000.0, 4000.0};
   // Peers at a time with one person's key, and with a key that a whole room shares.
   std::size_t peers_per_key = 16;
@@ -96,7 +96,7 @@ struct SealCounters {
   std::uint64_t rekeyings = 0;  // of a session that stood
   std::uint64_t moves = 0;      // of a session to another address
   std::uint64_t unproven = 0;   // not sent to an address that has not answered yet
-  std::uint64_t unsealed = 0;   // to somebody who is gone, or too long
+  std::uint64_t unsealed = 0;   // the peer is gone, or the datagram too long
   std::array<std::uint64_t, kSealRejects> rejected{};
   std::uint64_t of(SealReject cause) const { return rejected[static_cast<std::size_t>(cause)]; }
 };
@@ -111,8 +111,8 @@ class SealServer {
     // answer_binding() it asks again.
     std::function<void(PeerId, const KeyEntry&, const PublicKey& house)> on_binding;
     std::function<void(PeerId)> on_end;  // the peer is gone: it closed, was silent, or lost its key
-    // A handshake of somebody who receives at `from` was refused. `name` is what the peer calls
-    // itself: untrusted bytes, empty where it gave none.
+    // The handshake of a peer that receives at `from` was refused. `name` is the peer's own:
+    // untrusted bytes, empty if it gave none.
     std::function<void(const Address& from, std::string_view name, SealReject cause)> on_refused;
     // The key of this peer was removed or replaced; on_end follows.
     std::function<void(PeerId, const KeyEntry&)> on_key_removed;
@@ -130,17 +130,18 @@ class SealServer {
   void receive(const Address& from, seal::Bytes datagram, MonoTime received, MonoTime now);
   void send(PeerId to, seal::Bytes plain);
   void answer_binding(PeerId to, Binding binding);
-  // Ends what took too long; returns when to call again, MonoTime() = not before a datagram.
+  // Ends handshakes and peers that are overdue; returns when to call again, MonoTime() = not before
+  // a datagram.
   MonoTime tick(MonoTime now);
   MonoTime next_deadline() const { return next_tick_; }
-  // From now on these keys count; peers that came with one that is gone are dropped.
+  // Replaces all keys; drops the peers whose key is gone.
   void set_keys(std::shared_ptr<const KeyRing> keys);
 
   const KeyRing& keys() const { return *keys_; }
   const SealCounters& counters() const { return counters_; }
   std::size_t peer_count() const { return peers_.size(); }
   std::size_t handshake_count() const { return handshakes_.size(); }
-  // Where a peer is; not set for nobody.
+  // The address of a peer; not set if there is none.
   Address address_of(PeerId peer) const;
 
  private:
@@ -150,11 +151,11 @@ class SealServer {
     std::unique_ptr<SealChannel> previous;
     MonoTime previous_until;
     KeyEntry key;
-    PublicKey house;  // which it has proved; not set: a certificate, or a program of this machine
+    PublicKey house;  // that it has proved; not set: a certificate, or a program of this machine
     bool has_certificate = false;
     bool is_invited = false;  // came with the invitation of that entry
     MonoTime last_heard;
-    // An address that the peer has moved to hears little until it has answered.
+    // A new address of the peer gets few bytes until it has answered.
     Address proven;
     bool is_proven = true;
     std::uint64_t question = 0;
@@ -166,7 +167,7 @@ class SealServer {
   };
   struct Handshake {
     std::unique_ptr<SealChannel> channel;
-    KeyEntry key;  // as the other side names itself; not set before it does
+    KeyEntry key;  // of the name that the other side gives; not set before
     PublicKey house;
     bool is_known = false;
     bool is_invited = false;

@@ -9,11 +9,11 @@
 namespace dance {
 
 enum class SealTrouble : std::uint8_t {
-  kNoAnswer,          // nothing has come back
-  kWrongKey,          // the server is there, and has no such key for this name
-  kNotTrusted,        // no common cipher, or a certificate that one of both does not trust
-  kInterrupted,       // it answered, and then no more
-  kServerKeyChanged,  // it names another key than the one that this house knows
+  kNoAnswer,          // nothing has arrived from the server
+  kWrongKey,          // the server answers, but knows another key or none for this name
+  kNotTrusted,        // no common cipher, or a certificate that one side does not trust
+  kInterrupted,       // it answered, then fell silent
+  kServerKeyChanged,  // its key is not the one that this house knows
 };
 
 }  // namespace dance

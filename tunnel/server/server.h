@@ -46,13 +46,13 @@ class Server {
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  // From now on these keys count.
+  // Replaces all keys.
   void set_keys(std::shared_ptr<const KeyRing> keys);
-  // Result of a house's request, see on_binding.
+  // The result of a house's request, see on_binding.
   void answer_binding(PeerId peer, Binding binding);
-  // Tells every link, and the cluster, so that none has to notice the silence.
+  // Announces the end to every link and to the cluster, so that none has to wait for a timeout.
   void say_goodbye();
-  // What came from the cluster goes out. Call after each batch of it.
+  // Sends on what the cluster delivered. Call after each batch.
   void end_cluster_turn(MonoTime now);
   // The clock that links see: this process's, or the cluster's.
   MonoTime to_session(MonoTime now) const {

@@ -24,7 +24,7 @@ class ServerAdmission {
   void on_hello(PeerId from, const Access& access, wire::Bytes body, MonoTime received,
                 MonoTime now);
   void drop(std::size_t session);
-  // That a host has removed the guests of this peer; the nonce is that of its hello, or 0.
+  // Tells a peer that a host has removed its guests; the nonce is that of its hello, or 0.
   void send_removal_notice(PeerId to, std::uint64_t nonce, Duration for_how_long);
 
   // For ServerRemotes: another server of the cluster in a room, as a session; nothing where there

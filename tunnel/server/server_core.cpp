@@ -48,7 +48,7 @@ void ServerCore::receive(PeerId from, const Access& access, wire::Bytes datagram
     if (!server_.admits(session, datagram.size(), now)) return;
     session.meter.came_in(datagram.size() + wire::kSealOverhead, now);
   }
-  // The link is told why by the answer to its next hello.
+  // The answer to the link's next hello gives the reason.
   if (access.is_expired && found != server_.by_peer.end()) {
     server_.audit(from, {.kind = AuditKind::kRemoved,
                          .key = access.name.view(),

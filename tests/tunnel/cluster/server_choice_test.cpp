@@ -64,6 +64,13 @@ TEST(ServerChoice, DoesNotWanderLater) {
   EXPECT_FALSE(choice.choose(distances(200, 20)));
 }
 
+TEST(ServerChoice, ChoosesInTheRoundThatMeasuresTheOthers) {
+  ListedServers choice({1});
+  EXPECT_FALSE(choice.choose({{server(0), Duration::ms(80)}, {server(1), {}}}));
+  EXPECT_EQ(choice.choose({{server(0), Duration::ms(80)}, {server(1), Duration::ms(10)}}),
+            server(1));
+}
+
 TEST(ServerChoice, KeepsADistanceWhenALaterProbeIsLost) {
   ListedServers choice({1, 2});
   EXPECT_FALSE(choice.choose({{server(0), Duration::ms(1)},

@@ -280,6 +280,18 @@ TEST_F(KeyCommands, InviteReplacesAnExpiredKey) {
   EXPECT_GT(*ring->find("alice")->until_s, utc_now_s() + 89 * 86'400);
 }
 
+TEST_F(KeyCommands, TakeAPublicKeyForANewGuestOnly) {
+  KeyCommand command;
+  command.public_key = PrivateKey::make().public_key().text();
+  command.new_room_key = "salsa";
+  EXPECT_NE(error_of(command).find("--new-guest"), std::string::npos);
+  command.new_room_key.clear();
+  command.invite = "alice";
+  command.address = "dance.example.org";
+  EXPECT_NE(error_of(command).find("--new-guest"), std::string::npos);
+  EXPECT_EQ(store_->read()->entries().size(), 0u);
+}
+
 TEST_F(KeyCommands, RefuseTimesThatMakeNoSense) {
   KeyCommand command;
   command.new_guest = "alice";

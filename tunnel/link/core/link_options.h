@@ -111,18 +111,18 @@ struct LinkHandlers {
   std::function<void(const wire::RefusalNotice&, MonoTime now)> on_refused;
   // What became of a guest whom this house wanted removed; first that it is asked.
   std::function<void(std::int32_t number, RemovalVerdict)> on_removal;
-  // The other servers of the cluster, each time they are told. Of a Link, that Link's own.
+  // The other servers of the cluster, each time the server lists them. A Link sets its own handler.
   std::function<void(const wire::ServerList&, MonoTime now)> on_servers;
-  // Another server is spoken to: the one before is silent or ends, or this one is nearer. Said by
-  // Link.
+  // The link moved to another server: the one before is silent or ends, or this one is nearer. Link
+  // calls it.
   std::function<void(const Address&)> on_other_server;
-  // Nothing has ever come from this address of the server, after several tries; the next ones go to
-  // another, or a new socket. Said by Link, each time.
+  // This address of the server has never answered, after several tries; the next ones go to
+  // another, or leave from a new socket. Link calls it each time.
   std::function<void(const Address&)> on_no_answer;
-  // The server is there, and there is no sealed session with it. Said by Link, with each try.
+  // There is no sealed session with the server, and why. Link calls it with each try.
   std::function<void(SealTrouble)> on_no_entry;
   // The server's name has other addresses now, the first of which is tried; or it cannot be
-  // resolved, and why. Said by Link, each time.
+  // resolved, and why. Link calls them each time.
   std::function<void(const Address&)> on_new_address;
   std::function<void(const std::string& why)> on_unknown_name;
 };

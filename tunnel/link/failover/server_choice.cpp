@@ -11,13 +11,13 @@ namespace {
 // then.
 constexpr Duration kStays = Duration::ms(200);
 // A handshake takes three round trips, then the hello one, and something may be lost. Each round of
-// all servers takes twice as long as the one before: what is slow is not torn off for ever.
+// all servers takes twice as long as the one before: a slow handshake is not cut off for ever.
 constexpr Duration kShortestTry = Duration::ms(800);
 constexpr std::int64_t kRoundTripsOfTry = 8;
 constexpr Duration kLongestTry = Duration::s(20);
 // Waiting time while no other server may be tried.
 constexpr Duration kLookAgain = Duration::ms(200);
-// A nearer server is nearer by so much at least: what is nearly equal stays as it is.
+// The least gain that a move is worth: between servers that are nearly equal the link stays.
 constexpr Duration kWorthwhile = Duration::ms(5);
 constexpr std::int64_t kWorthwhileShare = 5;  // a fifth of the way
 
@@ -59,10 +59,11 @@ void ServerChoice::set_distances(const std::vector<Distance>& distances) {
 }
 
 std::optional<Address> ServerChoice::choose() {
-  if (others_.empty() || std::exchange(has_chosen_, true)) return std::nullopt;
+  if (others_.empty() || has_chosen_) return std::nullopt;
   const std::optional<Duration> here = distance_of(current_);
   const std::optional<Duration> there = distance_of(others_.front());
-  if (!here || !there) return std::nullopt;
+  if (!here || !there) return std::nullopt;  // the next round of probes may measure them
+  has_chosen_ = true;
   const Duration gain = *here - *there;
   if (gain < kWorthwhile || gain * kWorthwhileShare < *here) return std::nullopt;
   return others_.front();

@@ -1,5 +1,5 @@
-// The room's music, song and scene: what this house's guests request, sent until the server has it
-// or has somebody else's; and what is in force.
+// The room's music, song and scene: the requests of this house's guests, sent until the server has
+// them or newer ones of other guests; and the state in force.
 //
 // Units/frames: times of music and song in the server's clock, unless a name says otherwise.
 // Ownership:    refers to the link's context.
@@ -23,9 +23,9 @@ class LinkRoom {
   void send(const GuestId& id, const Scene& scene, MonoTime now);
   bool on_state(const wire::State& state, MonoTime now);
   void on_ack(const wire::StateAck& ack);
-  // A new session: what holds there is not known yet.
+  // Call for a new session: its room's state is not known yet.
   void begin_session();
-  // The clocks are mapped: a server that began anew has another one.
+  // Call when the clocks are mapped: a server that restarted has another clock.
   void map_times();
   // Requests that the server has not acknowledged, each handed to `add`.
   template <class Add>
@@ -48,7 +48,7 @@ class LinkRoom {
   }
 
  private:
-  // What a guest of this house wants it to be, until somebody else has set it.
+  // The request of a guest of this house, until another guest has set the state.
   struct Request {
     GuestId setter;
     bool is_open = false;

@@ -24,7 +24,7 @@ class LinkStates {
   template <class Message>
   void send(const GuestId& id, wire::StateKind kind, const Message& message, MonoTime now);
   void send(const GuestId& id, const Chat& chat, MonoTime now);
-  // What the server has not acknowledged.
+  // Sends the states again that the server has not acknowledged.
   void repeat(MonoTime now);
 
   bool on_states(wire::Bytes body, MonoTime now);

@@ -11,7 +11,7 @@ void NatsInbox::push(Kind kind, NatsHandle<natsMsg> message) {
   bool is_first = false;
   {
     const std::lock_guard lock(mutex_);
-    // News of the connection and of the bucket is never dropped.
+    // Events of the connection and of the bucket are never dropped.
     if (waiting_.size() >= kMost && kind == Kind::kValue) {
       dropped_.fetch_add(1, std::memory_order_relaxed);
       missed_value_ = true;

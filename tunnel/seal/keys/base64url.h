@@ -1,8 +1,8 @@
 // Base64 with - and _ and without padding (RFC 4648, section 5), in its one canonical form: each
 // byte string has one text.
 //
-// Failure: decode_base64url() gives false for any text that base64url() does not write for so many
-//          bytes.
+// Failure: decode_base64url() returns false for any text that base64url() would not write for
+//          `out.size()` bytes.
 #pragma once
 
 #include <cstdint>

@@ -23,7 +23,7 @@ namespace dance {
 
 struct HouseKey {
   GuestId name;        // whom the server knows it by
-  std::string server;  // HOST:PORT as it was told; "" = any
+  std::string server;  // HOST:PORT as the user gave it; "" = any
   GuestId room;        // not set = any
   PublicKey server_key;
   std::optional<PrivateKey> grant;  // nothing: the server knows this house's own key
@@ -45,11 +45,11 @@ class HouseKeys {
   static Result<HouseKeys> parse(std::string_view text, const std::string& name);
   std::string text() const;
 
-  // Replaces the one of the same name, server and room.
+  // Replaces the line of the same name, server and room.
   void put(const HouseKey& key);
   bool remove(std::string_view title);
-  // Trusts another key of this server (HOST or HOST:PORT) in all lines that concern it; the titles
-  // of those.
+  // Trusts another key of this server (HOST or HOST:PORT) in all lines that concern it; returns
+  // their titles.
   std::vector<std::string> trust(std::string_view server, const PublicKey& server_key);
   // A line that concerns this server and has another key of it; nullptr: none.
   const HouseKey* find_other(std::string_view server, const PublicKey& server_key) const;

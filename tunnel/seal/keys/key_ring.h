@@ -99,7 +99,7 @@ class KeyRing {
   bool add(const KeyEntry& entry);
   // Takes the place of an invitation that is open; false where the name has a key.
   bool invite(const KeyEntry& entry);
-  // Of an invitation it stays known that it was revoked.
+  // A removed invitation stays known as revoked.
   bool remove(std::string_view name);
   // Removes a key that has expired, so that its name can get another.
   void remove_expired(std::string_view name, std::int64_t now_s);

@@ -51,7 +51,7 @@ AuditKeeper::AuditKeeper(std::string path, std::uint16_t port, Poller& poller)
 }
 
 AuditKeeper::~AuditKeeper() {
-  poller_.set_deadline(timer_, MonoTime());
+  poller_.remove_timer(timer_);
   hand_over_to_writer();
   {
     const std::lock_guard lock(mutex_);

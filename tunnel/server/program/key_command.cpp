@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t kMostDaysOfKey = 3650;
 
-// Of a new key or of an invitation, without either.
+// The entry of a new key or invitation, before its key is set.
 Result<KeyEntry> entry_of(const KeyCommand& command) {
   KeyEntry entry;
   const bool is_room = !command.new_room_key.empty();
@@ -121,6 +121,8 @@ Result<void> run_key_command(const KeyCommand& command, KeyStore& store) {
         command.remove);
     return {};
   }
+  if (!command.public_key.empty() && command.new_guest.empty())
+    return fail("--public-key belongs to --new-guest: it is the key of one guest's house");
   DANCE_TRY(KeyEntry entry, entry_of(command));
   if (!command.invite.empty())
     return run_invite_command(entry, command.address, command.port, command.invitation, store);

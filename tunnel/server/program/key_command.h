@@ -37,7 +37,7 @@ struct KeyCommand {
 
 void add_key_options(CommandLine& line, KeyCommand& keys);
 
-// What it has to say goes to stdout: the line to paste, the list.
+// Writes its result to stdout: the line to paste, or the list.
 Result<void> run_key_command(const KeyCommand& command, KeyStore& store);
 
 }  // namespace dance

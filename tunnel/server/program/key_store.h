@@ -20,9 +20,9 @@ namespace dance {
 class KeyStore {
  public:
   virtual ~KeyStore() = default;
-  // As errors call it.
+  // Its name in error messages.
   virtual std::string name() const = 0;
-  // Entries that are wrong are said on stderr, one line each, and left out.
+  // Reports wrong entries on stderr, one line each, and leaves them out.
   virtual Result<KeyRing> read() = 0;
   // The public key of the server, or of all servers of the cluster; nothing: the cluster has none
   // yet. Writes nothing.

@@ -44,7 +44,7 @@ struct ServerGuestStatus {
 };
 
 struct ServerLinkStatus {
-  std::string peer;                             // address, or how its key is called
+  std::string peer;                             // address, or the name of its key
   std::string key;                              // name
   std::optional<std::int64_t> key_until_utc_s;  // when its key expires; nothing = never
   Duration age;

@@ -159,7 +159,8 @@ class TalkerPlaces {
     return longest;
   }
 
-  // The place of a talker whom the line does not bear, after its turn has come or not.
+  // For a talker beyond the first `audible` places: one of these if its turn has come, or else its
+  // own.
   Place* place_in_turn(Place* place, std::size_t audible, MonoTime now) {
     if (audible == 0) return place;
     Place* longest = std::max_element(

@@ -32,15 +32,15 @@ class ClusterMembership {
   NatsBus::Counters bus_counters() const { return bus_->counters(); }
   NatsBus::Counters key_bus_counters() const { return key_bus_->counters(); }
 
-  // After each batch that came of other servers.
+  // `work` runs after each batch of messages from other servers.
   void set_after_batch(std::function<void(MonoTime now)> work) {
     bus_->set_after_batch(std::move(work));
   }
-  // When the cluster's keys have become others.
+  // `work` runs when the cluster's keys have changed.
   void set_on_keys(std::function<void()> work) { on_keys_ = std::move(work); }
-  // Once a second: says what has become of the connection, and which keys are wrong or lost.
+  // Call once a second: reports changes of the connection, and keys that are wrong or lost.
   void tell();
-  // At the program's end.
+  // Call at the program's end.
   void flush() { bus_->flush(); }
 
  private:

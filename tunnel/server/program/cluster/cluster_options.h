@@ -1,4 +1,4 @@
-// The options of programs that speak with a cluster. Passwords come from files that only their
+// The options of programs that connect to a cluster. Passwords come from files that only their
 // owner can read: all users of a machine can read command lines.
 //
 // Failure: nats_options_of() names the option that is wrong, and the cure.
