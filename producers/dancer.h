@@ -25,8 +25,8 @@ class Dancer {
   virtual void dance_at(Duration t, Pose& out) = 0;
   // The fingers at t; false where this dancer has none.
   virtual bool hands_at(Duration, Hands&) { return false; }
-  // True while it is moved to the music that this house hears: its steps then say nothing about
-  // that music.
+  // True while its steps are shifted to the music that this house hears: they then give no evidence
+  // of that music's beat.
   virtual bool is_moved_to_music(Duration) const { return false; }
   // True when there is nothing left to play.
   virtual bool is_over(Duration) const { return false; }

@@ -16,7 +16,6 @@ DancerFeed::DancerFeed(std::unique_ptr<Dancer> dancer, const GuestId& guest, dou
   poller.add_timer(pacer_.deadline(), [this](MonoTime now) { return dance(now); });
 }
 
-// By deadlines, so that lateness does not add up; what was missed is not made up for.
 void DancerFeed::publish_skeleton(MonoTime now) {
   published_skeleton_ = &dancer_->skeleton();
   sink_.capture(guest_, TimedSkeleton{dancer_->skeleton(), now, this_clock_id()});

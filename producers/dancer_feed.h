@@ -1,7 +1,7 @@
 // DancerFeed: dances a Dancer into a sink at a steady rate, by absolute deadlines: numbers and
 // stamps the poses, and publishes the skeleton when it changes and once a second for late
-// subscribers; of a dancer who is
-// moved to the music it says then that the steps tell nothing about that music.
+// subscribers. For a dancer whose steps are shifted to the music it publishes Steps of weight 0
+// then, as they give no evidence of the music's beat.
 //
 // Units/frames: `start` is the dance's own zero; it may lie in the past, so that a couple in two
 //               processes, or a producer that was started again, dances on in step. The capture

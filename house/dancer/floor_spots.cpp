@@ -10,7 +10,7 @@ using Eigen::Vector3f;
 namespace {
 
 constexpr float kRing_m = 2.4f;          // from ring to ring
-constexpr std::size_t kOnFirstRing = 6;  // and so many more on each further ring
+constexpr std::size_t kOnFirstRing = 6;  // and 6 more on each further ring
 // Poses of all who are in a room arrive within this time after the house has joined it.
 constexpr Duration kFirstSight = Duration::s(1);
 // Two timeouts differ by more than a glide (0.7 s) and the delay of a pose (0.25 s) take.

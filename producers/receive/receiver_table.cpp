@@ -47,7 +47,7 @@ class WatchedReceiver final : public PoseReceiver {
   WatchedReceiver(const std::string& name, std::unique_ptr<PoseReceiver> receiver, Poller& poller)
       : receiver_(std::move(receiver)), poller_(poller), report_(name) {
     timer_ = poller_.add_timer(mono_now() + kSecond, [this](MonoTime now) {
-      look(now);
+      check_input(now);
       return now + kSecond;
     });
   }
@@ -59,7 +59,7 @@ class WatchedReceiver final : public PoseReceiver {
  private:
   static constexpr Duration kSecond = Duration::s(1);
 
-  void look(MonoTime now) {
+  void check_input(MonoTime now) {
     if (probe_) {
       const std::uint64_t before = probe_->counters().received;
       probe_->receive();  // cut datagrams count too

@@ -83,7 +83,7 @@ MonoTime LogPlayer::deadline_of(const LogEvent& event) const {
   return start_ + Duration::seconds(std::clamp(since_first, 0.0, 1e6) / options_.speed);
 }
 
-// Each round counts anew; a whole one has counted all.
+// Each round starts its counts at zero; the highest are those of a whole round.
 void LogPlayer::note_damage() {
   skipped_bytes_ = std::max(skipped_bytes_, log_.skipped_bytes());
   if (log_.unpacking().lost() >= unpacking_.lost()) unpacking_ = log_.unpacking();

@@ -34,7 +34,7 @@ Result<void> run_salsa(SalsaOptions& options) {
   }
   options.style.role = options.role == "lead" ? SalsaRole::kLead : SalsaRole::kFollow;
   DANCE_TRY(const SalsaStyle style, checked_style(options.style));
-  // To the music of the house where there is some; without it all salsa dancers are in step.
+  // Dances to the house's music if there is any; without it all salsa dancers are in step.
   if (options.producer.start_us == 0) options.producer.start_us = calendar_zero().since_zero_us();
   DANCE_TRY(auto program, ProducerProgram::open(options.producer));
   auto dancer = std::make_unique<SalsaDancer>(style);

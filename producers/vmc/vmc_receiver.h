@@ -38,7 +38,7 @@ class VmcIntake final : private OscMessageSink, private VmcFrameSink {
   const ReceivedDancer& dancer() const { return dancer_; }
   std::uint64_t malformed() const { return malformed_; }
   bool is_clock_unusable() const { return clock_.is_unusable(); }
-  // Why what came made no pose.
+  // Why the received packets made no pose.
   std::string diagnosis() const;
   const OscReader::Counters& packets() const { return reader_.counters(); }
 

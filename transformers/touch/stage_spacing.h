@@ -30,7 +30,7 @@ class StageSpacing {
   static constexpr Duration kReturnTimeout = Duration::s(5);
   static constexpr Duration kGone = Duration::s(2);
 
-  // A pose that is about to be shown. `holds` knows the hands as they were shown.
+  // Call with each pose that is about to be shown. `holds` has the hands as shown.
   void apply(const GuestId& guest, Pose& pose, MonoTime now, DancerOf of, const StageHolds& holds);
 
  private:

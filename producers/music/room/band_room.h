@@ -51,8 +51,8 @@ class BandRoom {
 
   void play_next(MonoTime now);
   void play_style(BandStyle style, MonoTime now);
-  // By kTempoStep, from the first bar after kNotice. False if the tempo cannot change any further
-  // in this song.
+  // Changes the tempo by `steps` of kTempoStep, from the first bar after kNotice on. False if it
+  // cannot change any further in this song.
   bool change_tempo(int steps, MonoTime now);
   void set_playing(bool plays, MonoTime now);
   void set_locked(bool is_locked, MonoTime now);

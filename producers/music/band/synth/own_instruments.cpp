@@ -109,7 +109,7 @@ Sound snare() {
   });
 }
 
-// By the keys of General MIDI.
+// The key is that of General MIDI.
 const std::map<int, Sound>& percussion_sounds() {
   static const std::map<int, Sound> kSounds{
       {36, skin(52.0, 14.0, 1.6)},
