@@ -22,7 +22,7 @@ class DeviceTroubles {
     std::string& last = last_[static_cast<std::size_t>(device)];
     if (what == last) return;
     last = what;
-    recoveries_.clear();  // an error that follows is the news
+    recoveries_.clear();  // a newer error replaces them
     append(errors_, what);
   }
   // Call when a device works. If it had an error, reports the recovery; the next error is reported

@@ -14,7 +14,7 @@ namespace {
 constexpr int kMeterCells = 8;
 constexpr int kQuietest_dbfs = -60;
 constexpr Duration kHearingSaid = Duration::s(1);
-constexpr Duration kLevelSaid = Duration::ms(100);
+constexpr Duration kLevelPeriod = Duration::ms(100);
 constexpr Duration kMeterHolds = Duration::ms(300);
 
 std::string meter(int level) {
@@ -56,7 +56,7 @@ Result<std::unique_ptr<VoiceProgram>> VoiceProgram::open(const VoiceProgramOptio
   program->timer_ = poller.add_timer(mono_now(), [self](MonoTime now) {
     self->devices_->work(now);
     self->report_devices();
-    self->say_level(now);
+    self->publish_level(now);
     if (!self->said_ || !is_same(*self->said_, self->state(now))) self->say_state(now);
     return now + VoiceDevices::kTurn;
   });
@@ -172,8 +172,8 @@ void VoiceProgram::say_state(MonoTime now) {
   bus_.publish(Where::kCapture, options_.guest, *said_);
 }
 
-void VoiceProgram::say_level(MonoTime now) {
-  if (!devices_->has_microphone() || now - level_.time < kLevelSaid) return;
+void VoiceProgram::publish_level(MonoTime now) {
+  if (!devices_->has_microphone() || now - level_.time < kLevelPeriod) return;
   level_.time = now;
   level_.clock_id = this_clock_id();
   bus_.publish(Where::kCapture, options_.guest, level_);
@@ -181,10 +181,10 @@ void VoiceProgram::say_level(MonoTime now) {
 }
 
 void VoiceProgram::report_devices() const {
-  const std::string trouble = devices_->take_errors();
+  const std::string errors = devices_->take_errors();
   const std::string recoveries = devices_->take_recoveries();
-  if (!trouble.empty() || !recoveries.empty()) before_words();
-  if (!trouble.empty()) talk::warn("{}; goes on with what there is", trouble);
+  if (!errors.empty() || !recoveries.empty()) before_words();
+  if (!errors.empty()) talk::warn("{}; goes on with what there is", errors);
   if (!recoveries.empty()) talk::info("{}", recoveries);
 }
 

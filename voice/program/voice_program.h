@@ -32,7 +32,7 @@ struct VoiceProgramOptions {
   VoiceEncoderOptions encoding;
   VoiceSettings settings;
   bool has_keys = false;               // of a terminal, where the space bar talks
-  std::function<void()> before_words;  // before each line that is said, as to clear one of levels
+  std::function<void()> before_words;  // before each line of output, as to clear one of levels
 };
 
 class VoiceProgram {
@@ -61,7 +61,7 @@ class VoiceProgram {
   void say_hearing(MonoTime now);
   VoiceState state(MonoTime now) const;
   void say_state(MonoTime now);
-  void say_level(MonoTime now);
+  void publish_level(MonoTime now);
   // For what is about to be said.
   void before_words() const {
     if (options_.before_words) options_.before_words();
