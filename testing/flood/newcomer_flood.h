@@ -1,5 +1,5 @@
-// An attack on a tunnel server's newcomers: one owner of many IPv6 networks begins as many
-// handshakes as the rate says, each from a random /64 of the prefix. It answers the server's
+// An attack on a tunnel server's newcomers: one owner of many IPv6 networks begins
+// handshakes at a given rate, each from a random /64 of the prefix. It answers the server's
 // cookie, which proves that the addresses are real, and then goes silent.
 //
 // Needs a local route to the prefix: `ip -6 route add local PREFIX dev lo`. For benchmarks and flow

@@ -14,19 +14,19 @@ namespace {
 
 std::int64_t period_ns() { return static_cast<std::int64_t>(1e9 / runtime().script.refresh_hz); }
 
-// The time that the application is told: each bad one of the script in one frame.
-XrTime told_time(XrTime display_ns, Session& session) {
+// The time that the application gets: each bad time of the script in one frame.
+XrTime reported_time(XrTime display_ns, Session& session) {
   std::deque<std::string>& bad_times = runtime().bad_times;
   session.is_time_bad = !bad_times.empty();
   if (bad_times.empty()) return display_ns;
   const std::string bad = bad_times.front();
   bad_times.pop_front();
-  XrTime told = display_ns;
-  if (bad == "zero") told = 0;
-  if (bad == "past") told = display_ns - 1'000'000'000;
-  if (bad == "far") told = display_ns + 10'000'000'000;
-  if (bad == "garbage") told = 0x5A5A5A5A5A5A5A5A;
-  return told;
+  XrTime reported = display_ns;
+  if (bad == "zero") reported = 0;
+  if (bad == "past") reported = display_ns - 1'000'000'000;
+  if (bad == "far") reported = display_ns + 10'000'000'000;
+  if (bad == "garbage") reported = 0x5A5A5A5A5A5A5A5A;
+  return reported;
 }
 
 // The tick of the display to sleep until: the next one, and never one twice.
@@ -36,9 +36,9 @@ XrTime next_tick(Session& session) {
   return session.last_tick * period;
 }
 
-void note_predicted(Session& session, XrTime told_ns) {
-  session.waited_ns = told_ns;
-  session.predicted_ns.push_back(told_ns);
+void note_predicted(Session& session, XrTime reported_ns) {
+  session.waited_ns = reported_ns;
+  session.predicted_ns.push_back(reported_ns);
   if (session.predicted_ns.size() > 16) session.predicted_ns.pop_front();
 }
 
@@ -70,7 +70,7 @@ XrResult XRAPI_CALL wait_frame(XrSession handle, const XrFrameWaitInfo* info, Xr
     return call.wrong(XR_ERROR_SESSION_NOT_RUNNING, "the session ended meanwhile");
   advance_script();
   // Drawn until the next tick, then shown for a period: its middle.
-  state->predictedDisplayTime = told_time(tick_ns + period_ns() * 3 / 2, *session);
+  state->predictedDisplayTime = reported_time(tick_ns + period_ns() * 3 / 2, *session);
   state->predictedDisplayPeriod = period_ns();
   state->shouldRender = !session->is_headless && (session->state == XR_SESSION_STATE_VISIBLE ||
                                                   session->state == XR_SESSION_STATE_FOCUSED);

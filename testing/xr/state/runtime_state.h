@@ -124,7 +124,7 @@ struct Runtime {
   std::optional<XrTime> clock_start_ns;
   std::optional<XrTime> first_system_ns;
   std::size_t next_event = 0;
-  std::deque<std::string> bad_times;  // still to be told, one in a frame
+  std::deque<std::string> bad_times;  // still to be reported, one in a frame
   std::map<std::string, XrResult> failures;
   std::vector<Origin> origins;
 
