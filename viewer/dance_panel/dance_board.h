@@ -1,6 +1,6 @@
-// DanceBoard: where the thread that hears the bus leaves what the dance panel shows beside the
-// dance, and the drawing thread finds it; and the other way round, whom a host wants removed, who
-// is hidden, and what is written to the room.
+// DanceBoard: passes messages between the bus thread and the drawing thread. The dance panel gets
+// the state that it shows beside the dance. The bus thread gets the panel's requests, such as
+// removals, hidden guests and lines of chat.
 //
 // Units/frames: times of the house's clock.
 // Ownership:    bounded rings and mailboxes; never allocates after construction.

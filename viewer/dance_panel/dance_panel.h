@@ -72,7 +72,7 @@ class DancePanel : public WindowPanel {
 
   // dance_panel_over.cpp
   void draw_corner(const PanelFrame& frame);
-  float draw_banner(const PanelFrame& frame);  // its lower edge; 0: there is none
+  float draw_banner(const PanelFrame& frame);  // returns its lower edge; 0: no banner
   void draw_slow_note(const PanelFrame& frame);
   // Returns its lower edge, or banner_end_px if no other house records.
   float draw_recorders(const PanelFrame& frame, float banner_end_px) const;
@@ -122,9 +122,9 @@ class DancePanel : public WindowPanel {
   PanelControls controls_;
   std::vector<const WindowPanel*> rivals_;
   bool is_open_ = false;
-  GuestId chosen_;      // whose choices are shown
+  GuestId chosen_;      // the guest whose choices are shown
   GuestId role_guest_;  // the guest that has_role_ was read for
-  MonoTime role_read_;  // when
+  MonoTime role_read_;  // when it was read
   bool has_role_ = false;
   GuestId to_be_removed_;          // asked back about
   bool is_removal_asked_ = false;  // in this picture

@@ -138,10 +138,9 @@
       "La sala se ha cerrado.", \
       "Der Raum wurde geschlossen.") \
   ROW(kBannerRoomClosedCure, \
-      "The host has closed it. If it opens again, you rejoin automatically.", \
-      "El anfitrión la ha cerrado. Si vuelve a abrirla, entrarás automáticamente.", \
-      "Der Gastgeber hat ihn geschlossen. Öffnet er ihn wieder, bist du automatisch wieder " \
-      "dabei.") \
+      "Its server has stopped. If it starts again, you rejoin automatically.", \
+      "Su servidor se ha detenido. Si vuelve a arrancar, entrarás automáticamente.", \
+      "Sein Server wurde beendet. Startet er wieder, bist du automatisch wieder dabei.") \
   ROW(kBannerServer, \
       "The server does not answer.", \
       "El servidor no responde.", \
