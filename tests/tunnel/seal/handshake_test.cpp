@@ -360,6 +360,7 @@ TEST(SealHandshake, TheKeyOfThisMachineIsForThisMachine) {
   EXPECT_EQ(here.sealed, 1);
   EXPECT_EQ(there.sealed, 0);
   EXPECT_EQ(street.server->counters().of(SealReject::kNotLocal), 1u);
+  EXPECT_EQ(street.server->counters().of(SealReject::kNoAgreement), 0u) << "refused once";
 }
 
 TEST(SealHandshake, AKeyThatIsTakenBackEndsItsSessions) {
