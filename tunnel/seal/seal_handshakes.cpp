@@ -64,12 +64,10 @@ std::optional<PresharedKey> SealServer::find_key(ssl_st* ssl, std::string_view i
                               ? keys_->find_invitation(name.substr(seal::kInvitedPrefix.size()))
                               : keys_->find(name);
   if (entry == nullptr || house.has_value() == entry->is_local()) {
-    handshake->is_refused = true;
     refuse(channel.peer(), name, SealReject::kUnknownName);
     return house ? server_session_key(identity_, server_key_, *house, nobody_) : std::nullopt;
   }
   if (entry->is_local() && !channel.peer().is_loopback()) {
-    handshake->is_refused = true;
     refuse(channel.peer(), name, SealReject::kNotLocal);
     return std::nullopt;
   }
@@ -182,8 +180,7 @@ void SealServer::go_on(std::size_t index, seal::Bytes records, MonoTime now) {
     case SealChannel::Progress::kDone:
       return finish(index, now);
     case SealChannel::Progress::kFailed:
-      if (!handshake.is_refused)
-        refuse(channel.peer(), handshake.key.name.view(), SealReject::kNoAgreement);
+      refuse(channel.peer(), handshake.key.name.view(), SealReject::kNoAgreement);
       return drop_handshake(index);
     case SealChannel::Progress::kUnderWay:
       break;

@@ -170,7 +170,6 @@ class SealServer {
     KeyEntry key;  // of the name that the other side gives; not set before
     PublicKey house;
     bool is_known = false;
-    bool is_refused = false;  // counted and audited under its cause
     bool is_invited = false;
     MonoTime since;
     int datagrams = 0;
