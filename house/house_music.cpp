@@ -19,6 +19,7 @@ std::vector<std::string> music_arguments(const HostedMusic& music, const std::st
     words.push_back(value);
   };
   if (music.guest.is_set()) add("--guest", std::string(music.guest.view()));
+  if (music.is_alone) words.emplace_back("--alone");
   if (music.follow) words.emplace_back("--follow");
   if (music.loop) words.emplace_back("--loop");
   if (music.silent) words.emplace_back("--silent");

@@ -179,8 +179,9 @@ void read_music(TomlReader& reader, const std::filesystem::path& folder, HouseCo
   music.follow = reader.bool_or("follow", has_room && !music.microphone);
   if (const auto guest = reader.maybe_string("guest"))
     music.guest = read_guest(reader, "guest", *guest);
-  else if ((has_band || (has_room && !music.file.empty())) && !session.guests.empty())
+  else if ((has_band || !music.file.empty()) && !session.guests.empty())
     music.guest = session.guests.front();
+  music.is_alone = !has_room && !music.follow && !music.file.empty();
   music.loop = reader.bool_or("loop", false);
   music.silent = reader.bool_or("silent", false);
   music.volume = reader.number_or("volume", has_band ? HostedMusic::kBandVolume : 1.0, 0.0, 1.0);

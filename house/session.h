@@ -96,7 +96,10 @@ struct HostedMusic {
   static constexpr double kBandVolume = 0.6;
   std::string file;   // "" = the room's time only, or what the microphone hears
   std::string beats;  // "" = the .beats file beside it
-  GuestId guest;      // plays for the room as this guest; not set = for the house alone
+  // Plays for the room as this guest; not set = for the house alone. A house that is alone
+  // publishes the song's title under this name.
+  GuestId guest;
+  bool is_alone = false;  // in no room: a file may be stopped, slowed and changed
   bool follow = false;
   bool loop = false;
   bool silent = false;

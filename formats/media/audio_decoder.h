@@ -28,6 +28,14 @@ struct AudioFormat {
   std::int64_t length_frames = 0;
 };
 
+// Longer tags are cut.
+constexpr std::size_t kMostTag_bytes = 256;
+
+struct AudioTags {
+  std::string title;
+  std::string artist;
+};
+
 class AudioDecoder {
  public:
   virtual ~AudioDecoder() = default;
@@ -36,6 +44,8 @@ class AudioDecoder {
   virtual Result<std::size_t> read(std::span<float> interleaved) = 0;
   // 0 to length_frames: the next frame that is read.
   virtual Result<void> seek(std::int64_t frame) = 0;
+  // The file's tags; empty where it has none. As the file has them: unchecked text.
+  virtual AudioTags tags() const { return {}; }
 };
 
 // What to convert a file to that cannot be read: not to what its name says it is already.

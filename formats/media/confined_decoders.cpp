@@ -44,6 +44,7 @@ class ConfinedAudio final : public AudioDecoder {
   Result<void> seek(std::int64_t frame) override {
     return confined_.call([&](AudioDecoder& decoder) { return decoder.seek(frame); });
   }
+  AudioTags tags() const override { return confined_.decoder().tags(); }
 
   Confined<AudioDecoder> confined_;
 };

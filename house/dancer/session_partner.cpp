@@ -27,8 +27,9 @@ GuestId free_guest(const HouseConfig& session) {
 void dance_alone(HouseConfig& session) {
   session.server.clear();
   if (!session.music) return;
-  // The band publishes its song under a guest's name, for the dance panel.
-  if (session.music->band.empty()) session.music->guest = GuestId();
+  // The song is published under a guest's name, for the dance panel.
+  if (session.music->microphone) session.music->guest = GuestId();
+  session.music->is_alone = !session.music->file.empty();
   session.music->follow = false;
   const HostedMusic& music = *session.music;
   if (music.file.empty() && !music.microphone && music.band.empty()) session.music.reset();
@@ -79,6 +80,8 @@ void practise_to(HouseConfig& session, const std::string& music) {
   hosted.file = music;
   hosted.loop = true;
   hosted.volume = session.practice_volume;
+  hosted.is_alone = session.server.empty();
+  if (hosted.is_alone && !session.guests.empty()) hosted.guest = session.guests.front();
   session.music = hosted;
 }
 

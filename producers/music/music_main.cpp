@@ -1,8 +1,6 @@
 // dance music: plays a music file, publishes its beats as they are heard in this house, and plays
 // in step with the room.
 
-#include <sys/stat.h>
-
 #include <charconv>
 #include <cstdio>
 
@@ -12,15 +10,15 @@
 #include "core/net/secure_random.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
-#include "producers/music/beats_file.h"
 #include "producers/music/control/music_control.h"
+#include "producers/music/file/file_deck.h"
+#include "producers/music/file/slowed_source.h"
 #include "producers/music/file_source.h"
 #include "producers/music/music_program.h"
 #include "producers/music/room/band_program.h"
 #include "producers/music/room/band_source.h"
 #include "producers/music/sound/microphone_beats.h"
 #include "producers/music/sound/pulse_player.h"
-#include "producers/music/tracked_song.h"
 #include "producers/music/tracker/tempo/steps_hint.h"
 
 namespace dance {
@@ -56,6 +54,7 @@ struct ProgramOptions {
   bool follow = false;
   bool silent = false;
   bool loop = false;
+  bool alone = false;
   bool microphone = false;
   std::string source;
   std::string band;
@@ -80,7 +79,7 @@ std::optional<Duration> duration_of(std::string_view text) {
 Result<MonoTime> start_of(const ProgramOptions& options, MonoTime now) {
   // Time to start the sound, and for the room's houses to learn of the song.
   if (options.start.empty())
-    return now + (options.guest.empty() ? Duration::ms(500) : Duration::s(2));
+    return now + (options.guest.empty() || options.alone ? Duration::ms(500) : Duration::s(2));
   if (options.start[0] == '+') {
     if (const auto later = duration_of(std::string_view(options.start).substr(1)))
       return now + *later;
@@ -95,17 +94,6 @@ Result<MonoTime> start_of(const ProgramOptions& options, MonoTime now) {
               "producers, or a time from now like +2s");
 }
 
-bool is_there(const std::string& path) {
-  struct stat status {};
-  return ::stat(path.c_str(), &status) == 0;
-}
-
-struct Loaded {
-  std::optional<Song> song;
-  std::optional<AudioFile> audio;
-  float confidence = 1.0f;
-};
-
 // Who says it means it.
 Result<void> check_hint(const ProgramOptions& options) {
   if (options.steps_bpm > 0.0 && options.steps_bpm < kLeastTempo_bpm)
@@ -114,29 +102,6 @@ Result<void> check_hint(const ProgramOptions& options) {
 }
 
 TempoHint hint_of(const ProgramOptions& options) { return {options.steps_bpm, 1.0}; }
-
-Result<Loaded> load(const ProgramOptions& options) {
-  Loaded loaded;
-  if (options.file.empty()) return loaded;
-  DANCE_TRY(loaded.audio, AudioFile::open(options.file));
-  const std::string beats = options.beats.empty() ? beats_path_beside(options.file) : options.beats;
-  if (options.beats.empty() && !is_there(beats)) {
-    talk::info("there is no {}: finds the beats of {} by listening", beats, options.file);
-    auto tracked = track_song(*loaded.audio, hint_of(options));
-    if (!tracked)
-      return fail(tracked.error().what + "; or put a list of its beats beside it as " + beats);
-    loaded.confidence = tracked->confidence;
-    talk::info("{} beats, about {:.0f} a minute", tracked->grid.size(),
-               tracked->grid.tempo_bpm(tracked->grid.last_beat() / 2.0));
-    loaded.song.emplace(std::move(tracked->grid), loaded.audio->length_s(), false);
-    return loaded;
-  }
-  DANCE_TRY(BeatGrid grid, read_beats_file(beats));
-  if (grid.time_of(grid.first_beat()) > loaded.audio->length_s())
-    return fail(beats + ": its first beat is behind the end of " + options.file);
-  loaded.song.emplace(std::move(grid), loaded.audio->length_s(), false);
-  return loaded;
-}
 
 Result<Duration> trim_of(const ProgramOptions& options) {
   const auto trim = duration_of(options.trim);
@@ -151,12 +116,6 @@ std::unique_ptr<MusicPlayer> player_or_silence(std::unique_ptr<MusicSource> sour
   if (player) return std::move(*player);
   talk::warn("{}; keeps the time without sound", player.error().what);
   return std::make_unique<SilentPlayer>();
-}
-
-Result<std::unique_ptr<MusicPlayer>> player_of(const ProgramOptions& options, Loaded& loaded) {
-  if (options.silent || !loaded.audio) return std::make_unique<SilentPlayer>();
-  DANCE_TRY(const Duration trim, trim_of(options));
-  return player_or_silence(std::make_unique<FileSource>(std::move(*loaded.audio)), options, trim);
 }
 
 void stop_after(Poller& poller, double seconds) {
@@ -205,18 +164,30 @@ Result<void> follow_microphone(const ProgramOptions& options) {
 }
 
 // Where there is something to be heard; without it, it plays all the same.
-std::unique_ptr<MusicControl> control_of(const ProgramOptions& options, MusicProgram& program,
+std::unique_ptr<MusicControl> control_of(const ProgramOptions& options, FileDeck& deck,
                                          Poller& poller) {
   if (options.silent || options.file.empty()) return nullptr;
   auto control = MusicControl::open(
-      options.bus,
-      [&program](const MusicCommand& command) {
-        if (command.what == MusicCommand::What::kVolume) program.set_volume(command.volume);
-      },
-      poller);
+      options.bus, [&deck](const MusicCommand& command) { deck.apply(command); }, poller);
   if (control) return std::move(*control);
   talk::warn("{}", control.error().what);
   return nullptr;
+}
+
+Result<FileDeck::Options> deck_options(const ProgramOptions& options) {
+  DANCE_TRY(const Duration trim, trim_of(options));
+  FileDeck::Options deck;
+  deck.file = {options.file, options.beats};
+  deck.hint = hint_of(options);
+  deck.is_alone = options.alone;
+  deck.begin = [&options](MonoTime now) { return start_of(options, now); };
+  deck.make_player = [&options, trim](AudioFile audio) -> std::unique_ptr<MusicPlayer> {
+    if (options.silent) return std::make_unique<SilentPlayer>();
+    std::unique_ptr<MusicSource> source = std::make_unique<FileSource>(std::move(audio));
+    if (options.alone) source = std::make_unique<SlowedSource>(std::move(source));
+    return player_or_silence(std::move(source), options, trim);
+  };
+  return deck;
 }
 
 Result<BandRoom::Options> band_options(const ProgramOptions& options) {
@@ -270,31 +241,34 @@ Result<void> play(const ProgramOptions& options) {
     return fail(
         "nothing to play: name a file, let the house band play with --band salsa, keep the room's "
         "time with --follow, or listen with --microphone");
-  // Before the poller handles signals: Ctrl-C ends the program while the song is analysed.
-  DANCE_TRY(Loaded loaded, load(options));
+  if (options.alone && options.follow)
+    return fail("--alone: there is no room to follow; leave --follow out");
   DANCE_TRY(auto poller, Poller::create());
-  if (auto stops = poller->stop_on_signals(); !stops) return stops;
   MusicProgramOptions program_options;
-  program_options.song = loaded.song;
   program_options.loops = options.loop;
-  program_options.confidence = loaded.confidence;
-  program_options.title = music_title(options.file);
   if (!options.guest.empty()) program_options.guest = *GuestId::parse(options.guest);
   program_options.follows = options.follow;
-  DANCE_TRY(auto player, player_of(options, loaded));
+  std::unique_ptr<MusicPlayer> player = std::make_unique<SilentPlayer>();
+  DANCE_TRY(FileDeck::Options deck_wish, deck_options(options));
+  FileDeck deck(std::move(deck_wish), *poller);
+  if (!options.file.empty()) {
+    DANCE_TRY(player, deck.open(program_options));
+  }
+  if (auto stops = poller->stop_on_signals(); !stops) return stops;
   DANCE_TRY(auto bus, Bus::open(options.bus));
   DANCE_TRY(program_options.begin, start_of(options, mono_now()));
   HousePublisher port(*bus, bus->url(), *poller);
   MusicProgram program(std::move(program_options), std::move(player), port, *poller);
+  if (!options.file.empty()) deck.run(program);
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
-  const auto control = control_of(options, program, *poller);
+  const auto control = control_of(options, deck, *poller);
   stop_after(*poller, options.seconds);
   talk::info("{}; Ctrl-C ends it", options.follow ? "listens for the room's music" : "playing");
   poller->run();
   program.stop(mono_now());
   poller->unwatch(bus->fd());
   talk::info("{} beats published; {}", program.publisher().published(), program.summary());
-  return {};
+  return deck.result();
 }
 
 }  // namespace
@@ -327,6 +301,10 @@ int main(int argc, char** argv) {
       .range(0.0, 400.0);
   line.add_flag("--loop", options.loop,
                 "loop, while this house leads the room or plays for itself");
+  line.add_flag(
+      "--alone", options.alone,
+      "in no room: it plays while its beats are found, and dance music set may stop, slow "
+      "and change it");
   line.add("--volume", options.volume, "0 to 1").range(0.0, 1.0);
   line.add("--trim", options.trim,
            "latency of the loudspeaker that the sound server does not know of, like 20ms");

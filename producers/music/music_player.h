@@ -23,6 +23,8 @@ class MusicPlayer {
   virtual void pause() = 0;
   // From now on: 0 = silent, 1 = as in the file.
   virtual void set_volume(double volume) = 0;
+  // Song seconds are those of this speed from now on; play_from() follows.
+  virtual void set_speed(double /*speed*/) {}
   // The song second that is heard at t; nullopt while that is not known.
   virtual std::optional<double> heard_s(MonoTime t) const = 0;
   // To be called a hundred times a second.

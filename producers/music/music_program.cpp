@@ -1,5 +1,6 @@
 #include "producers/music/music_program.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/net/mono_clock.h"
@@ -13,6 +14,10 @@ constexpr Duration kMusicSecond = Duration::s(1);
 // A link publishes the room's music once a second.
 constexpr Duration kRoomTimeout = Duration::ms(3500);
 constexpr Duration kNever = Duration::s(1LL << 32);
+// About how long a change of speed takes to be heard.
+constexpr Duration kHeardAfter = Duration::ms(300);
+// The player's own position may belong to the speed before for so long.
+constexpr Duration kSettled = Duration::s(1);
 // Music that was not heard of for longer has ended.
 constexpr Duration kRoomMusicTimeout = Duration::s(4);
 
@@ -28,34 +33,120 @@ MusicProgram::MusicProgram(MusicProgramOptions options, std::unique_ptr<MusicPla
   const MonoTime now = mono_now();
   publisher_ =
       std::make_unique<BeatPublisher>(bus_, poller_, [this](MonoTime t) { return beat(t); });
-  if (options_.follows || options_.guest.is_set())
+  if (!options_.is_alone && (options_.follows || options_.guest.is_set()))
     bus_.subscribe<Music>(Where::kRoom,
                           [this](const Channel& channel, const Music& music, MonoTime t) {
                             if (music.clock_id == this_clock_id())
                               on_room_music(channel.guest(), music, t);
                           });
   wait_until_ = now + kRoomTimeout;
-  if (!options_.follows) begin_own(now);
+  if (options_.awaits_song) {
+    state_ = State::kFinds;
+    begin_ = options_.begin;
+    if (options_.is_alone) play();
+  } else if (!options_.follows) {
+    begin_own(now);
+  }
   poller_.add_timer(now, [this](MonoTime t) { return work(t); });
   poller_.add_timer(now, [this](MonoTime t) { return each_second(t); });
 }
 
 void MusicProgram::begin_own(MonoTime now) {
   begin_ = options_.begin.is_set() ? options_.begin : now;
-  is_leader_ = options_.guest.is_set();
+  is_leader_ = options_.guest.is_set() && !options_.is_alone;
   state_ = State::kPlays;
   play();
 }
 
 // A song that another house leads ends when that house ends it.
 void MusicProgram::play() {
-  options_.song->set_loops(options_.loops || (state_ == State::kFollows && !is_leader_));
-  player_->play_from(begin_, options_.song->loops());
+  const bool loops = options_.loops || (state_ == State::kFollows && !is_leader_);
+  if (options_.song) options_.song->set_loops(loops);
+  player_->play_from(begin_, loops);
+}
+
+void MusicProgram::set_song(Song song, float confidence, MonoTime begin, MonoTime now) {
+  if (state_ == State::kStopped && !is_paused_) return;
+  options_.song.emplace(std::move(song));
+  options_.confidence = confidence;
+  options_.song->set_loops(options_.loops);
+  if (options_.is_alone) {
+    stopped_at_beats_ = options_.song->beat_at(std::max(0.0, paused_at_s_) / speed_);
+    state_ = is_paused_ ? State::kStopped : State::kPlays;
+    return publish_title(now);
+  }
+  options_.begin = begin;
+  state_ = State::kWaits;
+  wait_until_ = now + kRoomTimeout;
+  if (!options_.follows)
+    begin_own(now);
+  else if (room_ && now - room_->time < kRoomMusicTimeout)
+    on_room_music(room_setter_, *room_, now);
+}
+
+// Of the song that is heard, or where it was stopped.
+double MusicProgram::file_s(MonoTime now) const {
+  return is_paused_ ? paused_at_s_ : (now - begin_).as_seconds() * speed_;
+}
+
+void MusicProgram::set_playing(bool plays, MonoTime now) {
+  if (plays != is_paused_ || (state_ == State::kStopped && !is_paused_)) return;
+  before_.reset();
+  if (plays) {
+    begin_ = now + kHeardAfter - Duration::seconds(paused_at_s_ / speed_);
+    is_paused_ = false;
+    state_ = options_.song ? State::kPlays : State::kFinds;
+    play();
+  } else {
+    paused_at_s_ = std::max(0.0, file_s(now));
+    is_paused_ = true;
+    player_->pause();
+    if (options_.song) {
+      stopped_at_beats_ = options_.song->beat_at(paused_at_s_ / speed_);
+      state_ = State::kStopped;
+    }
+  }
+  publisher_->publish(now);
+  publish_title(now);
+}
+
+void MusicProgram::set_speed(double speed, MonoTime now) {
+  if (speed == speed_ || (state_ == State::kStopped && !is_paused_)) return;
+  const MonoTime heard = now + kHeardAfter;
+  const double at_s = file_s(heard);
+  if (!is_paused_ && options_.song) before_.emplace(Before{*options_.song, begin_, heard});
+  speed_ = speed;
+  if (options_.song) options_.song->set_speed(speed);
+  player_->set_speed(speed);
+  if (is_paused_) return;
+  // A song that has not begun begins when it was to.
+  if (at_s > 0.0) begin_ = heard - Duration::seconds(at_s / speed);
+  play();
+  publish_title(now);
+}
+
+void MusicProgram::begin_next(std::unique_ptr<MusicPlayer> player, const MusicTitle& title,
+                              MonoTime begin) {
+  if (state_ == State::kStopped && !is_paused_) return;
+  const MonoTime now = mono_now();
+  if (state_ == State::kPlays) set_playing(false, now);  // the beats stop, too
+  player_ = std::move(player);
+  options_.song.reset();
+  options_.title = title;
+  room_music_ = RoomMusic(title, this_clock_id());
+  before_.reset();
+  is_paused_ = false;
+  paused_at_s_ = 0.0;
+  begin_ = begin;
+  state_ = State::kFinds;
+  play();
+  publish_title(now);
 }
 
 void MusicProgram::on_room_music(const GuestId& setter, const Music& music, MonoTime now) {
   room_ = music;
   room_setter_ = setter;
+  if (state_ == State::kFinds) return;
   const bool is_ours = setter == options_.guest;
   if (is_ours && is_leader_) return;
   if (is_leader_ && state_ == State::kPlays) {
@@ -109,7 +200,9 @@ MonoTime MusicProgram::work(MonoTime now) {
   if (auto worked = player_->work(now); !worked) {
     talk::warn("{}; keeps the time without sound", worked.error().what);
     player_ = std::make_unique<SilentPlayer>();
-    if (state_ == State::kPlays || state_ == State::kFollows) play();
+    player_->set_speed(speed_);
+    const bool is_heard = options_.is_alone && state_ == State::kFinds && !is_paused_;
+    if (is_heard || state_ == State::kPlays || state_ == State::kFollows) play();
   }
   if (state_ == State::kWaits && options_.song && now >= wait_until_) {
     talk::info("the room has no music: begins '{}'", options_.title.view());
@@ -125,7 +218,27 @@ MonoTime MusicProgram::work(MonoTime now) {
   return now + kPlayerTurn;
 }
 
+// For the windows of a house that is alone. While the song is heard and its beats are not known,
+// the tempo is unknown, and no beats are published.
+void MusicProgram::publish_title(MonoTime now) {
+  if (!options_.is_alone || !options_.guest.is_set()) return;
+  Music music;
+  if (state_ == State::kPlays) {
+    music = room_music_.update(*options_.song, begin_, now);
+  } else if (state_ == State::kFinds && !is_paused_) {
+    music.time = now;
+    music.clock_id = this_clock_id();
+    music.start_time = begin_;
+    music.playing = true;
+    music.title = options_.title;
+  } else {
+    music = room_music_.update_stopped(stopped_at_beats_, now);
+  }
+  bus_.publish(Channel::of(Signal::kMusic, Where::kCapture, options_.guest), music);
+}
+
 MonoTime MusicProgram::each_second(MonoTime now) {
+  publish_title(now);
   if (is_leader_ && (state_ == State::kPlays || state_ == State::kFollows))
     bus_.publish(Channel::of(Signal::kMusic, Where::kCapture, options_.guest),
                  room_music_.update(*options_.song, begin_, now));
@@ -137,6 +250,7 @@ MonoTime MusicProgram::each_second(MonoTime now) {
 
 std::optional<Beat> MusicProgram::beat(MonoTime now) const {
   switch (state_) {
+    case State::kFinds:
     case State::kWaits:
       return std::nullopt;
     case State::kKeepsRoomTime:
@@ -144,9 +258,12 @@ std::optional<Beat> MusicProgram::beat(MonoTime now) const {
       return beat_of_room_music(*room_, now);
     case State::kPlays:
     case State::kFollows: {
-      const auto heard_s = player_->heard_s(now);
+      auto heard_s = player_->heard_s(now);
       if (!heard_s) return std::nullopt;
-      return beat_of_song(*heard_s, now);
+      if (before_ && now < before_->until)
+        return beat_of_song(before_->song, (now - before_->begin).as_seconds(), now);
+      if (before_ && now < before_->until + kSettled) heard_s = (now - begin_).as_seconds();
+      return beat_of_song(*options_.song, *heard_s, now);
     }
     case State::kStopped: {
       Beat stopped;
@@ -162,15 +279,15 @@ std::optional<Beat> MusicProgram::beat(MonoTime now) const {
   return std::nullopt;
 }
 
-std::optional<Beat> MusicProgram::beat_of_song(double heard_s, MonoTime now) const {
-  const Song& song = *options_.song;
+std::optional<Beat> MusicProgram::beat_of_song(const Song& song, double heard_s,
+                                               MonoTime now) const {
   const Song::NextBeat next = song.next_beat(heard_s);
   Beat coming;
   coming.time = now;
   coming.clock_id = this_clock_id();
   coming.beat_time = now + Duration::seconds(next.song_s - heard_s);
   coming.beat = next.beat;
-  coming.tempo_bpm = next.tempo_bpm;
+  coming.tempo_bpm = std::clamp(next.tempo_bpm, kLeastTempo_bpm, kMostTempo_bpm);
   coming.beats_per_bar = song.beats_per_bar();
   coming.confidence = options_.confidence;
   coming.playing = true;
@@ -184,6 +301,7 @@ std::optional<Beat> MusicProgram::beat_of_song(double heard_s, MonoTime now) con
 }
 
 void MusicProgram::stop(MonoTime now) {
+  is_paused_ = false;  // for good
   if (state_ == State::kStopped) return;
   const auto heard_s = player_->heard_s(now);
   const bool was_song = state_ == State::kPlays || state_ == State::kFollows;

@@ -20,6 +20,8 @@ class MusicSource {
   // This frame is read next: a source that computes its sound does a small part of that now.
   virtual void prepare(std::int64_t /*frame*/) {}
   virtual void set_loops(bool /*loops*/) {}
+  // 1 = as it is. A source that cannot change its speed ignores this.
+  virtual void set_speed(double /*speed*/) {}
 };
 
 }  // namespace dance

@@ -13,9 +13,11 @@ constexpr double kTempoTolerance_s = 0.005;
 // The message has to be right until the next one.
 constexpr double kLookAhead_s = 1.5;
 
-double steady_tempo_bpm(const BeatGrid& grid) {
+double steady_tempo_bpm(const Song& song) {
+  const BeatGrid& grid = song.grid();
   const double beats = grid.last_beat() - grid.first_beat();
-  return 60.0 * beats / (grid.time_of(grid.last_beat()) - grid.time_of(grid.first_beat()));
+  return 60.0 * song.speed() * beats /
+         (grid.time_of(grid.last_beat()) - grid.time_of(grid.first_beat()));
 }
 
 bool fits_tempo(const Music& music, const Song& song, MonoTime begin, double song_s) {
@@ -30,8 +32,12 @@ MusicTitle music_title(const std::string& path) {
   std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
   if (const std::size_t dot = name.find_last_of('.'); dot != std::string::npos && dot > 0)
     name.resize(dot);
+  return shortened_title(name);
+}
+
+MusicTitle shortened_title(std::string_view text) {
   MusicTitle title;
-  name = plain_text(name);
+  const std::string name = plain_text(text);
   // A cut within a UTF-8 character leaves no valid text: try one byte less.
   for (std::size_t size = std::min<std::size_t>(name.size(), 63); size > 0; --size)
     if (is_plain_text(name.substr(0, size)) && title.assign(name.substr(0, size))) return title;
@@ -52,7 +58,7 @@ const Music& RoomMusic::update(const Song& song, MonoTime begin, MonoTime now) {
     music_.title = title_;
     music_.clock_id = clock_id_;
     // The mean tempo where the song keeps it, else the tempo up to the next message.
-    music_.tempo_bpm = steady_tempo_bpm(song.grid());
+    music_.tempo_bpm = steady_tempo_bpm(song);
     if (!fits_tempo(music_, song, begin, song_s + kLookAhead_s))
       music_.tempo_bpm =
           60.0 * (song.beat_at(from_s + kLookAhead_s) - music_.start_beats) / kLookAhead_s;

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "core/base/beat.h"
 #include "core/bus/state_messages.h"
@@ -18,6 +19,8 @@ namespace dance {
 
 // The song's title for the room: the file's name without folders and extension, cut to the bound.
 MusicTitle music_title(const std::string& path);
+// Without hidden characters, cut to the bound.
+MusicTitle shortened_title(std::string_view text);
 
 // A position and one tempo that describe where a song stands, renewed only where the song departs
 // from them: steady music repeats one message, and music of varying tempo is right in every bar.

@@ -11,7 +11,8 @@ constexpr std::size_t kFewestTrackedBeats = 8;
 
 }  // namespace
 
-Result<TrackedSong> track_song(AudioFile& file, const TempoHint& hint) {
+Result<TrackedSong> track_song(AudioFile& file, const TempoHint& hint,
+                               const std::atomic<bool>* is_cancelled) {
   if (file.rate_hz() < BeatTracker::kLeastRate_hz || file.rate_hz() > BeatTracker::kMostRate_hz)
     return fail(file.path() + ": no beats can be heard at " +
                 std::to_string(static_cast<int>(file.rate_hz())) +
@@ -23,6 +24,8 @@ Result<TrackedSong> track_song(AudioFile& file, const TempoHint& hint) {
   double confidence = 0.0;
   Beat next;  // as last predicted
   for (;;) {
+    if (is_cancelled && *is_cancelled)
+      return fail(file.path() + ": ended while its beats were sought");
     DANCE_TRY(const std::size_t read, file.read(hop));
     if (read == 0) break;
     tracker.push(std::span(hop).first(read));

@@ -8,6 +8,8 @@
 // Failure:      an Error where no steady beat is heard, or the file is damaged.
 #pragma once
 
+#include <atomic>
+
 #include "core/base/result.h"
 #include "producers/music/beat_grid.h"
 #include "producers/music/decode/audio_file.h"
@@ -20,7 +22,8 @@ struct TrackedSong {
   float confidence = 0.0f;  // mean, as core/base/beat.h
 };
 
-// The hint is of the whole song.
-Result<TrackedSong> track_song(AudioFile& file, const TempoHint& hint = {});
+// The hint is of the whole song. Another thread may cancel it, which is an Error.
+Result<TrackedSong> track_song(AudioFile& file, const TempoHint& hint = {},
+                               const std::atomic<bool>* is_cancelled = nullptr);
 
 }  // namespace dance

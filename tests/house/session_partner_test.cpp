@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "house/dancer/dancer_file.h"
+#include "house/house_music.h"
 
 namespace dance {
 namespace {
@@ -65,6 +68,19 @@ TEST(SessionPartner, WhatIsPractisedToIsAsLoudAsItWasLeft) {
   EXPECT_EQ(volume_of(""), 1.0);
   EXPECT_EQ(volume_of("[window]\nvolume = 0.4\n"), 0.4);
   EXPECT_EQ(volume_of("[music]\nfollow = true\nvolume = 0.7\n[window]\nvolume = 0.4\n"), 0.7);
+}
+
+TEST(SessionPartner, ASongToPractiseToIsTitledAndControlledInAHouseThatIsAlone) {
+  HouseConfig house = house_with_partner("");
+  practise_to(house, "song.ogg");
+  EXPECT_FALSE(house.music->is_alone) << "the house is in a room";
+  EXPECT_FALSE(house.music->guest.is_set());
+  dance_alone(house);
+  practise_to(house, "song.ogg");
+  EXPECT_TRUE(house.music->is_alone);
+  EXPECT_EQ(house.music->guest.view(), "ann");
+  const auto words = music_arguments(*house.music, "bus");
+  EXPECT_NE(std::find(words.begin(), words.end(), "--alone"), words.end());
 }
 
 TEST(SessionPartner, AddsTheBandUnlessTheHouseHasMusicOrExcludesIt) {

@@ -200,7 +200,8 @@ TEST(HouseFile, ReadsTheMusicWhichFollowsItsRoomByDefault) {
   ASSERT_TRUE(alone->music);
   EXPECT_EQ(alone->music->file, "h/a.ogg");
   EXPECT_FALSE(alone->music->follow);
-  EXPECT_FALSE(alone->music->guest.is_set());
+  EXPECT_FALSE(alone->music->guest.is_set()) << "nobody dances";
+  EXPECT_TRUE(alone->music->is_alone);
 
   const auto in_room = parse_session(
       "[house]\nguest = \"ann\"\nserver = \"h:1\"\n[music]\nfile = \"a.ogg\"\nloop = true\n"
@@ -208,6 +209,7 @@ TEST(HouseFile, ReadsTheMusicWhichFollowsItsRoomByDefault) {
       "s.toml");
   ASSERT_TRUE(in_room) << in_room.error().what;
   EXPECT_TRUE(in_room->music->follow);
+  EXPECT_FALSE(in_room->music->is_alone) << "the room's music is not stopped by one house";
   EXPECT_EQ(in_room->music->guest.view(), "ann");
   EXPECT_TRUE(in_room->music->loop);
   EXPECT_EQ(in_room->music->trim_ms, 20.0);

@@ -186,8 +186,10 @@ void DancePanel::draw_lamps(const SceneMusic& music) const {
 void DancePanel::draw_music(const PanelFrame& frame) {
   section(texts_[Text::kDanceMusic]);
   const auto& music = frame.scene.music;
-  if (!music) {
-    dance_ink::text(dance_ink::kText, texts_[Text::kDanceNoMusic]);
+  const bool has_own = has_own_song();
+  const bool finds = finds_beat(frame);
+  if (!music && !has_own) {
+    dance_ink::text(dance_ink::kText, texts_[finds ? Text::kDanceFindsBeat : Text::kDanceNoMusic]);
     draw_band();
     return;
   }
@@ -196,12 +198,17 @@ void DancePanel::draw_music(const PanelFrame& frame) {
   const std::string title = has_title ? printable(records_.music()->title.view())
                                       : band_title().value_or(texts_[Text::kDanceUntitled]);
   ImGui::TextUnformatted(dance_ink::fitted(title, width).c_str());
-  draw_lamps(*music);
-  const std::string bpm = std::to_string(std::lround(60.0 * music->beats_per_second));
-  ImGui::SameLine();
-  dance_ink::text(dance_ink::kQuiet, texts_.say(Text::kDanceTempo, {bpm}).c_str());
+  if (music) {
+    draw_lamps(*music);
+    const std::string bpm = std::to_string(std::lround(60.0 * music->beats_per_second));
+    ImGui::SameLine();
+    dance_ink::text(dance_ink::kQuiet, texts_.say(Text::kDanceTempo, {bpm}).c_str());
+  } else if (finds) {
+    dance_ink::text(dance_ink::kQuiet, texts_[Text::kDanceFindsBeat]);
+  }
   if (music_.is_there()) draw_music_volume(frame.scene.time);
   draw_band();
+  if (has_own) draw_own_song();
   if (!CountIn::is_possible(music)) return;
   const bool waits = count_in_.is_asked();
   if (controls_.button("count-in", texts_[waits ? Text::kDanceCountWaits : Text::kDanceCountIn])) {

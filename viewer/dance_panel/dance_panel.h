@@ -91,6 +91,9 @@ class DancePanel : public WindowPanel {
   // dance_panel_band.cpp
   std::optional<std::string> band_title() const;
   void draw_band();
+  bool has_own_song() const;
+  bool finds_beat(const PanelFrame& frame) const;
+  void draw_own_song();
   void draw_roles(const DanceGuest& guest, MonoTime now);
 
   // dance_panel_guests.cpp

@@ -1,6 +1,7 @@
 // DancePanel: the house band, and the roles of synthetic dancers.
 #include <tuple>
 
+#include "core/base/music_speed.h"
 #include "viewer/dance_panel/dance_ink.h"
 #include "viewer/dance_panel/dance_panel.h"
 
@@ -67,6 +68,34 @@ void DancePanel::draw_band() {
   } else if (song->locked) {
     dance_ink::text(dance_ink::kQuiet, texts_[Text::kBandLocked]);
   }
+}
+
+// A file that this house plays, in no room.
+bool DancePanel::has_own_song() const {
+  return music_.is_there() && records_.music() && !records_.link() && !records_.song();
+}
+
+// Music is heard here whose beats are not known yet.
+bool DancePanel::finds_beat(const PanelFrame& frame) const {
+  if (frame.scene.music || !music_.is_there() || records_.song()) return false;
+  return has_own_song() ? records_.music()->playing : !records_.music();
+}
+
+void DancePanel::draw_own_song() {
+  if (!needs_.music.control_band || !needs_.music.tell_speed) return;
+  auto speed = static_cast<float>(music_.speed());
+  const std::string words =
+      texts_.say(Text::kDanceMusicSpeed, {std::to_string(std::lround(100.0 * music_.speed()))});
+  if (controls_.slider("music-speed",
+                       ImGui::GetContentRegionAvail().x - 0.3f * ImGui::GetFontSize(), speed,
+                       static_cast<float>(kLeastMusicSpeed), static_cast<float>(kMostMusicSpeed),
+                       static_cast<float>(kMusicSpeedStep), words.c_str()))
+    music_.set_speed(static_cast<double>(speed));
+  const bool plays = records_.music()->playing;
+  ButtonRow row(controls_);
+  if (row.button("song-stop", texts_[plays ? Text::kBandStop : Text::kBandPlay]))
+    music_.control_band(plays ? BandRequest::kPause : BandRequest::kPlay, 0);
+  if (row.button("song-next", texts_[Text::kBandNext])) music_.control_band(BandRequest::kNext, 0);
 }
 
 void DancePanel::draw_roles(const DanceGuest& guest, MonoTime now) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/music_speed.h"
+
 namespace dance {
 
 void MusicDesk::work(bool is_shown, MonoTime now) {
@@ -29,6 +31,15 @@ void MusicDesk::toggle_mute() {
   if (!needs_.plays_here || !needs_.plays_here()) return;
   is_muted_ = !is_muted_;
   tell(is_muted_ ? 0.0 : volume_);
+}
+
+void MusicDesk::set_speed(double speed) {
+  speed = stepped_music_speed(speed, 0);
+  if (speed == speed_) return;
+  speed_ = speed;
+  trouble_.clear();
+  if (!needs_.tell_speed) return;
+  if (const auto told = needs_.tell_speed(speed); !told) trouble_ = told.error().what;
 }
 
 void MusicDesk::control_band(BandRequest request, int style) {

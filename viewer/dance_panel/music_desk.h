@@ -1,7 +1,7 @@
-// MusicDesk: how loud the music of this house is: told to what plays it while a person moves the
-// slider, and kept in the session file when it has rested.
+// MusicDesk: how loud and how fast the music of this house is: told to what plays it while a person
+// moves a slider. The volume is kept in the session file when it has rested, the speed is not.
 //
-// Units/frames: volumes are factors, 0 = silent, 1 = as in the file.
+// Units/frames: volumes and speeds are factors, 0 = silent, 1 = as in the file.
 // Ownership:    plain value; what the functions refer to must outlive it.
 // Threads:      the drawing thread.
 // Failure:      what cannot be told or kept is in trouble().
@@ -40,6 +40,8 @@ class MusicDesk {
     double volume = 1.0;  // as the session file has it
     // `style` counts for kStyle only; numbered as in lcmtypes/song_t.lcm.
     std::function<Result<void>(BandRequest, int style)> control_band = {};
+    // Of a file that this house plays alone.
+    std::function<Result<void>(double)> tell_speed = {};
   };
   explicit MusicDesk(Needs needs) : needs_(std::move(needs)), volume_(needs_.volume) {}
 
@@ -51,6 +53,9 @@ class MusicDesk {
   // Mutes or unmutes the music of this house. The choice is not saved: the next dance has music.
   void toggle_mute();
   bool is_muted() const { return is_muted_; }
+  double speed() const { return speed_; }
+  // In steps of music_speed.h, each told once.
+  void set_speed(double speed);
   void control_band(BandRequest request, int style);
   // What has not been kept yet.
   void keep();
@@ -61,6 +66,7 @@ class MusicDesk {
 
   Needs needs_;
   double volume_;
+  double speed_ = 1.0;
   bool is_there_ = false;
   bool is_muted_ = false;
   MonoTime looked_, changed_;  // changed_: not set where all is kept

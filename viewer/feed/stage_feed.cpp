@@ -190,10 +190,14 @@ void StageFeed::hear_house() {
       Where::kCapture, [this](const Channel& channel, const VoiceLevel& level, MonoTime now) {
         dance_.on_level(channel.guest(), level, now);
       });
-  bus_->subscribe<Music>(Where::kRoom, [this](const Channel&, const Music& music, MonoTime) {
+  // A house alone has only its own music and song; in a room those are requests.
+  bus_->subscribe<Music>(Where::kRoom, [this](const Channel&, const Music& music, MonoTime now) {
+    room_music_at_ = now;
     dance_.on_music(music);
   });
-  // A house alone has only its own song; in a room that one is a request.
+  bus_->subscribe<Music>(Where::kCapture, [this](const Channel&, const Music& music, MonoTime now) {
+    if (!room_music_at_.is_set() || now - room_music_at_ > kRoomSong) dance_.on_music(music);
+  });
   bus_->subscribe<RoomSong>(Where::kRoom,
                             [this](const Channel&, const RoomSong& song, MonoTime now) {
                               room_song_at_ = now;

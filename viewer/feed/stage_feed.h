@@ -78,6 +78,7 @@ class StageFeed {
   InterestWish hidden_;       // as published last
   RecordingState recording_;  // as published last
   MonoTime room_song_at_;     // when the room's song arrived last
+  MonoTime room_music_at_;    // when the room's music did
   MonoTime begin_, counted_;
   std::int64_t shown_count_ = 0;
   SpscRing<ShownPose, 512> shown_;

@@ -33,6 +33,12 @@ MusicDesk::Needs music_needs(const std::string& bus, std::shared_ptr<SessionFile
     command.volume = volume;
     return send_music_command(bus, command);
   };
+  needs.tell_speed = [bus](double speed) {
+    MusicCommand command;
+    command.what = MusicCommand::What::kSpeed;
+    command.speed = speed;
+    return send_music_command(bus, command);
+  };
   needs.control_band = [bus](BandRequest request, int style) {
     using What = MusicCommand::What;
     constexpr What kCommands[] = {What::kNext,   What::kPlay,  What::kPause, What::kSlower,

@@ -161,6 +161,7 @@
       "Cuenta: próximo compás", \
       "Einzählen: nächster Takt") \
   ROW(kDanceDrawPlainly, "Draw plainly", "Dibujar sencillo", "Schlicht zeichnen") \
+  ROW(kDanceFindsBeat, "Finding the beat…", "Buscando el ritmo…", "Der Takt wird gesucht…") \
   ROW(kDanceGuests, "Guests: {}", "Invitados: {}", "Gäste: {}") \
   ROW(kDanceHearsNobody, "cannot hear you", "no te oye", "hört dich nicht") \
   ROW(kDanceHidden, "hidden", "oculto", "verborgen") \
@@ -171,6 +172,7 @@
   ROW(kDanceMicrophoneOn, "Microphone on", "Micrófono encendido", "Mikrofon an") \
   ROW(kDanceMusic, "Music", "Música", "Musik") \
   ROW(kDanceMusicMuted, "music muted", "música en silencio", "Musik stumm") \
+  ROW(kDanceMusicSpeed, "speed {} %", "velocidad {} %", "Tempo {} %") \
   ROW(kDanceMusicVolume, "music {} %", "música {} %", "Musik {} %") \
   ROW(kDanceMute, "Mute voice", "Silenciar voz", "Stumm schalten") \
   ROW(kDanceMuted, "muted by you", "silenciado por ti", "von dir stumm gestellt") \

@@ -139,9 +139,9 @@
   ROW(kLobbyMusic, "Music", "Música", "Musik") \
   ROW(kLobbyNoMusic, "No music", "Sin música", "Keine Musik") \
   ROW(kLobbyMusicSeeks, \
-      "The song starts once its beats are found. That can take half a minute.", \
-      "La canción empieza en cuanto se detecta su ritmo. Puede tardar medio minuto.", \
-      "Das Lied beginnt, sobald sein Takt erkannt ist. Das kann eine halbe Minute dauern.") \
+      "The song starts right away. Finding its beat can take half a minute.", \
+      "La canción empieza enseguida. Detectar su ritmo puede tardar medio minuto.", \
+      "Das Lied beginnt sofort. Es kann eine halbe Minute dauern, bis sein Takt erkannt ist.") \
   ROW(kLobbyMirror, "Mirror view", "Vista de espejo", "Spiegelansicht") \
   ROW(kLobbyRooms, "Rooms you know", "Salas que conoces", "Räume, die du kennst") \
   ROW(kLobbyNoRooms, \

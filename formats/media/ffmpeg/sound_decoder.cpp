@@ -44,6 +44,14 @@ bool is_time(std::int64_t time) {
 }
 constexpr std::int64_t kDiscarded_frames = 4096;
 
+// Of the file, or of its stream of sound, where Ogg has them.
+std::string tag_of(const FfmpegInput& input, const char* name) {
+  for (const AVDictionary* tags : {input.format().metadata, input.stream().metadata})
+    if (const AVDictionaryEntry* tag = av_dict_get(tags, name, nullptr, 0))
+      return std::string(tag->value).substr(0, kMostTag_bytes);
+  return "";
+}
+
 }  // namespace
 
 Result<std::unique_ptr<AudioDecoder>> FfmpegDecoder::open(const std::string& path) {
@@ -54,6 +62,7 @@ Result<std::unique_ptr<AudioDecoder>> FfmpegDecoder::open(const std::string& pat
   self->format_.rate_hz = self->decoded_->sample_rate;
   self->format_.channels = self->decoded_->ch_layout.nb_channels;
   self->first_time_ = self->decoded_->pts;
+  self->tags_ = {tag_of(*self->input_, "title"), tag_of(*self->input_, "artist")};
   if (auto found = self->find_length(); !found) return tl::make_unexpected(found.error());
   return self;
 }

@@ -23,6 +23,7 @@ class FfmpegDecoder : public AudioDecoder {
   AudioFormat format() const override { return format_; }
   Result<std::size_t> read(std::span<float> interleaved) override;
   Result<void> seek(std::int64_t frame) override;
+  AudioTags tags() const override { return tags_; }
 
  private:
   // How the decoder gives out its samples.
@@ -53,6 +54,7 @@ class FfmpegDecoder : public AudioDecoder {
   FfmpegPtr<SwrContext> converter_;  // from sampling_ to interleaved floats of format_
   Sampling sampling_;
   AudioFormat format_;
+  AudioTags tags_;
   std::int64_t first_time_ = AV_NOPTS_VALUE;  // of frame 0, in the container
   std::int64_t at_frame_ = 0;                 // the next one read
   std::size_t silent_ = 0;                    // frames of silence that come first,

@@ -2,6 +2,9 @@
 
 #include <unistd.h>
 
+#include <charconv>
+
+#include "core/base/music_speed.h"
 #include "core/base/plain_number.h"
 #include "core/bus/bus.h"
 
@@ -10,6 +13,7 @@ namespace {
 
 constexpr std::string_view kVolumeWord = "volume";
 constexpr std::string_view kStyleWord = "style ";
+constexpr std::string_view kSpeedWord = "speed ";
 
 struct CommandWord {
   MusicCommand::What what;
@@ -26,6 +30,14 @@ std::string music_path(const std::string& bus) {
   return control_path("music", bus_url_or_default(bus), GuestId());
 }
 
+std::optional<double> speed_of(std::string_view text) {
+  double speed = 0.0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), speed);
+  if (read.ec != std::errc() || read.ptr != text.data() + text.size()) return std::nullopt;
+  if (!(speed >= kLeastMusicSpeed && speed <= kMostMusicSpeed)) return std::nullopt;
+  return speed;
+}
+
 }  // namespace
 
 std::optional<MusicCommand> parse_music_command(std::string_view line) {
@@ -38,6 +50,13 @@ std::optional<MusicCommand> parse_music_command(std::string_view line) {
     command.what = MusicCommand::What::kStyle;
     if (command.style.assign(line.substr(kStyleWord.size()))) return command;
   }
+  if (line.starts_with(kSpeedWord)) {
+    const auto speed = speed_of(line.substr(kSpeedWord.size()));
+    if (!speed) return std::nullopt;
+    command.what = MusicCommand::What::kSpeed;
+    command.speed = *speed;
+    return command;
+  }
   for (const CommandWord& known : kWords)
     if (known.word == line) return MusicCommand{known.what};
   return std::nullopt;
@@ -46,6 +65,8 @@ std::optional<MusicCommand> parse_music_command(std::string_view line) {
 std::string text_of(const MusicCommand& command) {
   if (command.what == MusicCommand::What::kVolume)
     return std::string(kVolumeWord) + " " + plain_number(command.volume);
+  if (command.what == MusicCommand::What::kSpeed)
+    return std::string(kSpeedWord) + plain_number(command.speed);
   if (command.what == MusicCommand::What::kStyle)
     return std::string(kStyleWord) + std::string(command.style.view());
   for (const CommandWord& known : kWords)

@@ -1,7 +1,7 @@
 // The control channel of a running `dance music`: another terminal or a viewer sets its volume, and
 // chooses what the house band plays. Where two play on one bus, both receive each command.
 //
-// Units/frames: volumes are factors, 0 = silent, 1 = as in the file.
+// Units/frames: volumes are factors, 0 = silent, 1 = as in the file; so are speeds.
 // Ownership:    MusicControl owns its socket file; the poller must outlive it.
 // Threads:      the poller's; the functions are for any.
 // Failure:      a line that is no command changes nothing; open() and send_music_command() name why
@@ -18,7 +18,7 @@
 
 namespace dance {
 
-// All but the volume are for the house band.
+// The house band has no speed, but tempi. Songs of files have no style and no lock.
 struct MusicCommand {
   enum class What : std::uint8_t {
     kVolume,
@@ -29,10 +29,12 @@ struct MusicCommand {
     kFaster,
     kLock,
     kUnlock,
-    kStyle
+    kStyle,
+    kSpeed
   };
   What what = What::kVolume;
   double volume = 1.0;
+  double speed = 1.0;  // within music_speed.h
   FixedString<15> style{};
 };
 
@@ -48,7 +50,7 @@ class MusicControl {
   std::unique_ptr<ProgramControl> control_;
 };
 
-// "volume 0.4", "next", "style bachata"; nothing for another line.
+// "volume 0.4", "speed 0.8", "next", "style bachata"; nothing for another line.
 std::optional<MusicCommand> parse_music_command(std::string_view line);
 std::string text_of(const MusicCommand& command);
 // A program of this user plays music on this bus.

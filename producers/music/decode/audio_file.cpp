@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/base/text/plain_text.h"
 #include "formats/media/confined_decoders.h"
 #include "formats/media/media_module.h"
 #include "producers/music/decode/sndfile_decoder.h"
@@ -18,6 +19,13 @@ constexpr std::size_t kAudioBlock_frames = 4096;
 
 // Damaged floating-point files may hold anything.
 float clean(float sample) { return std::isfinite(sample) ? sample : 0.0f; }
+
+std::string trimmed_tag(const std::string& tag) {
+  const std::string text = plain_text(tag);
+  const std::size_t begin = text.find_first_not_of(' ');
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
+}
 
 Result<std::unique_ptr<AudioDecoder>> open_with_module(const std::string& path) {
   const auto module = media_module();
@@ -59,6 +67,12 @@ Result<AudioFile> AudioFile::open(const std::string& path) {
     return fail(path + ": longer than 12 hours; cut it");
   audio.block_.resize(kAudioBlock_frames * static_cast<std::size_t>(format.channels));
   return audio;
+}
+
+std::string AudioFile::title() const {
+  const AudioTags tags = decoder_->tags();
+  const std::string title = trimmed_tag(tags.title), artist = trimmed_tag(tags.artist);
+  return title.empty() || artist.empty() ? title : title + " - " + artist;
 }
 
 Result<std::size_t> AudioFile::read_block(std::size_t most_frames) {

@@ -23,6 +23,8 @@ class AudioFile {
   static Result<AudioFile> open(const std::string& path);
 
   const std::string& path() const { return path_; }
+  // "Quimbara - Celia Cruz", from the file's tags; "" where they name no title.
+  std::string title() const;
   double rate_hz() const { return format_.rate_hz; }
   int channels() const { return format_.channels; }
   std::int64_t length_frames() const { return format_.length_frames; }

@@ -120,6 +120,7 @@ class SndfileDecoder : public AudioDecoder {
   }
 
   AudioFormat format() const override { return format_; }
+  AudioTags tags() const override { return tags_; }
 
   Result<std::size_t> read(std::span<float> interleaved) override {
     const auto frames =
@@ -151,10 +152,16 @@ class SndfileDecoder : public AudioDecoder {
     file_ = wav_ ? wav_->open_decoder(info) : SndfilePtr(sf_open(path_.c_str(), SFM_READ, &info));
     if (!file_) return fail(sf_strerror(nullptr));
     format_ = {info.samplerate, info.channels, info.frames};
+    tags_ = {tag(SF_STR_TITLE), tag(SF_STR_ARTIST)};
     if (!has_length_) format_.length_frames = length_frames;
     is_seekable_ = is_seekable_ && info.seekable != 0;
     at_frame_ = 0;
     return {};
+  }
+
+  std::string tag(int kind) const {
+    const char* text = sf_get_string(file_.get(), kind);
+    return text ? std::string(text, strnlen(text, kMostTag_bytes)) : std::string();
   }
 
   // Reads up to that frame, or to the end of the file if it comes first.
@@ -175,6 +182,7 @@ class SndfileDecoder : public AudioDecoder {
   std::unique_ptr<UnfinishedWav> wav_;  // outlives the decoder that reads it
   SndfilePtr file_;
   AudioFormat format_;
+  AudioTags tags_;
   std::int64_t at_frame_ = 0;
   bool has_length_ = true;
   bool is_seekable_ = true;

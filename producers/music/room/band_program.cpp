@@ -64,6 +64,8 @@ void BandProgram::apply(const MusicCommand& command) {
     case MusicCommand::What::kUnlock:
       room_.set_locked(command.what == MusicCommand::What::kLock, now);
       break;
+    case MusicCommand::What::kSpeed:
+      return;  // the band changes its tempo instead
     case MusicCommand::What::kStyle:
       if (const auto style = band_style_of(command.style.view())) room_.play_style(*style, now);
       break;

@@ -40,6 +40,7 @@ class PulsePlayer : public MusicPlayer {
   void pause() override { begin_.reset(); }
   // Within some milliseconds, without a click.
   void set_volume(double volume) override { gain_.set(volume); }
+  void set_speed(double speed) override { source_->set_speed(speed); }
   std::optional<double> heard_s(MonoTime t) const override;
   Result<void> work(MonoTime now) override;
   std::string summary() const override;

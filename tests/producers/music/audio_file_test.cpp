@@ -140,7 +140,7 @@ TEST_F(AudioFileTest, PlaysAFlacWhoseLengthIsUnknown) {
   write_encoded(path("streamed.flac"), SF_FORMAT_FLAC | SF_FORMAT_PCM_16, tone(24000), 8000);
   std::string bytes = text_of(path("streamed.flac"));
   ASSERT_EQ(bytes.substr(0, 4), "fLaC");
-  // The 36 bits of STREAMINFO that tell the number of samples.
+  // The 36 bits of STREAMINFO with the number of samples.
   bytes[21] = static_cast<char>(bytes[21] & 0xF0);
   for (std::size_t i = 22; i < 26; ++i) bytes[i] = 0;
   std::ofstream(path("streamed.flac"), std::ios::binary | std::ios::trunc) << bytes;
@@ -182,6 +182,30 @@ TEST_F(AudioFileTest, SurvivesEveryTruncation) {
     const auto read = audio->read(mono);
     EXPECT_LE(read.value_or(0), 64u);
   }
+}
+
+TEST_F(AudioFileTest, HasTheTitleOfItsTagsWithoutHiddenCharacters) {
+  const auto title_with = [&](const char* title, const char* artist) {
+    SF_INFO info{};
+    info.samplerate = 8000;
+    info.channels = 1;
+    info.format = SF_FORMAT_FLAC | SF_FORMAT_PCM_16;
+    SNDFILE* file = sf_open(path("tagged.flac").c_str(), SFM_WRITE, &info);
+    EXPECT_NE(file, nullptr);
+    if (title != nullptr) sf_set_string(file, SF_STR_TITLE, title);
+    if (artist != nullptr) sf_set_string(file, SF_STR_ARTIST, artist);
+    const std::vector<float> samples(800, 0.1f);
+    sf_writef_float(file, samples.data(), 800);
+    sf_close(file);
+    auto audio = AudioFile::open(path("tagged.flac"));
+    EXPECT_TRUE(audio) << audio.error().what;
+    return audio ? audio->title() : "";
+  };
+  EXPECT_EQ(title_with("Quimbara", "Celia Cruz"), "Quimbara - Celia Cruz");
+  EXPECT_EQ(title_with("Quimbara", nullptr), "Quimbara");
+  EXPECT_EQ(title_with(" a\nb\u202e ", "  "), "a?b?");
+  EXPECT_EQ(title_with(nullptr, "Celia Cruz"), "") << "no title";
+  EXPECT_LE(title_with(std::string(5000, 'x').c_str(), nullptr).size(), kMostTag_bytes);
 }
 
 }  // namespace

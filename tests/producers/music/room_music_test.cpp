@@ -104,7 +104,7 @@ TEST(MusicTitle, IsTheFilesNameWithinATitlesLength) {
   EXPECT_EQ(music_title("x" + name).view(), ("x" + name).substr(0, 61)) << "no half letter";
 }
 
-TEST(MusicControl, ParsesVolumesAndCommandsOfTheBandAndNothingElse) {
+TEST(MusicControl, ParsesVolumesSpeedsAndCommandsAndNothingElse) {
   for (const auto& [line, volume] : {std::pair{"volume 0.4", 0.4}, {"volume 0", 0.0}}) {
     const auto command = parse_music_command(line);
     ASSERT_TRUE(command) << line;
@@ -112,14 +112,31 @@ TEST(MusicControl, ParsesVolumesAndCommandsOfTheBandAndNothingElse) {
     EXPECT_EQ(command->volume, volume);
   }
   for (const char* line : {"volume 1", "next", "play", "pause", "slower", "faster", "lock",
-                           "unlock", "style bachata"}) {
+                           "unlock", "style bachata", "speed 0.85", "speed 1.1", "speed 0.5"}) {
     const auto command = parse_music_command(line);
     ASSERT_TRUE(command) << line;
     EXPECT_EQ(text_of(*command), line);
   }
-  for (const char* wrong :
-       {"", "volume", "volume ", "volume 1.01", "volume -0.1", "volume 0.5x", "volume nan",
-        "Volume 1", "volume  1", "mute", "next ", "style", "style a-name-that-is-too-long"})
+  for (const char* wrong : {"",
+                            "volume",
+                            "volume ",
+                            "volume 1.01",
+                            "volume -0.1",
+                            "volume 0.5x",
+                            "volume nan",
+                            "Volume 1",
+                            "volume  1",
+                            "mute",
+                            "next ",
+                            "speed",
+                            "speed ",
+                            "speed 0.49",
+                            "speed 1.11",
+                            "speed nan",
+                            "speed 1x",
+                            "speed -1",
+                            "style",
+                            "style a-name-that-is-too-long"})
     EXPECT_FALSE(parse_music_command(wrong)) << wrong;
 }
 

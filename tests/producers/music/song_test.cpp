@@ -68,5 +68,23 @@ TEST(Song, AnUpbeatKeepsTheBars) {
   EXPECT_EQ(std::fmod(song.beat_at(8.6), 4.0), 0.0);
 }
 
+TEST(Song, AtAnotherSpeedHasTheSameBeatsLaterOrEarlier) {
+  for (const bool loops : {false, true})
+    for (const double speed : {0.5, 0.8, 1.1}) {
+      const Song own(song_grid(), 8.3, loops);
+      Song changed = own;
+      changed.set_speed(speed);
+      EXPECT_NEAR(changed.length_s(), own.length_s() / speed, 1e-12);
+      EXPECT_NEAR(changed.tempo_bpm(3.0), 120.0 * speed, 1e-9);
+      for (double s = 0.0; s < 20.0; s += 0.37) {
+        ASSERT_NEAR(changed.beat_at(s / speed), own.beat_at(s), 1e-9) << speed;
+        ASSERT_NEAR(changed.time_of(own.beat_at(s)), own.time_of(own.beat_at(s)) / speed, 1e-9);
+        const Song::NextBeat next = changed.next_beat(s / speed);
+        ASSERT_GT(next.song_s, s / speed);
+        ASSERT_NEAR(changed.beat_at(next.song_s), next.beat, 1e-9);
+      }
+    }
+}
+
 }  // namespace
 }  // namespace dance

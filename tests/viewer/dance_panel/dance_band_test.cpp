@@ -92,5 +92,62 @@ TEST_F(DanceBandTest, SendsTheRoleOfASyntheticDancerOfThisHouse) {
   for (const std::string& sent : roles_sent_) EXPECT_TRUE(sent.starts_with("alice")) << sent;
 }
 
+// A house in no room, which plays a file.
+class DanceOwnSongTest : public DanceStage {
+ protected:
+  void SetUp() override {
+    DanceStage::SetUp();
+    if (IsSkipped()) return;
+    is_in_room_ = false;
+    begin(Language::kEnglish, kWidth_px, kHeight_px, 1.0f);
+    publish(true);
+    press(GLFW_KEY_ESCAPE);
+    now_ += MusicDesk::kLook + Duration::ms(100);
+    turn();
+  }
+  void publish(bool is_playing) {
+    Music music;
+    EXPECT_TRUE(music.title.assign("Quimbara - Celia Cruz"));
+    music.playing = is_playing;
+    board_.on_music(music);
+    work();
+  }
+  bool is_asked(BandRequest request) const {
+    return std::any_of(band_asked_.begin(), band_asked_.end(),
+                       [&](const auto& asked) { return asked.first == request; });
+  }
+};
+
+TEST_F(DanceOwnSongTest, IsStoppedPlayedOnAndChanged) {
+  EXPECT_TRUE(find_with_mouse([&] { return is_asked(BandRequest::kPause); }));
+  EXPECT_TRUE(find_with_mouse([&] { return is_asked(BandRequest::kNext); }));
+  EXPECT_FALSE(is_asked(BandRequest::kPlay));
+  publish(false);
+  scene_.music.reset();
+  EXPECT_TRUE(find_with_keys([&] { return is_asked(BandRequest::kPlay); }));
+}
+
+TEST_F(DanceOwnSongTest, IsMadeSlowerInStepsThatAreEachToldOnce) {
+  EXPECT_TRUE(find_with_mouse([&] { return !speeds_told_.empty() && speeds_told_.back() < 0.8; }));
+  for (std::size_t i = 0; i < speeds_told_.size(); ++i) {
+    EXPECT_GE(speeds_told_[i], 0.5);
+    EXPECT_LE(speeds_told_[i], 1.1);
+    if (i > 0) {
+      EXPECT_NE(speeds_told_[i], speeds_told_[i - 1]);
+    }
+  }
+}
+
+TEST_F(DanceOwnSongTest, ShowsThatItsBeatIsBeingFound) {
+  const Picture danced = keep("panel-own-song");
+  scene_.music.reset();
+  const Picture finds = keep("panel-own-song-finds");
+  publish(false);
+  const Picture stopped = keep("panel-own-song-stopped");
+  const int left = kWidth_px - 305;
+  EXPECT_GT(changed(danced, finds, left, kWidth_px), 100);
+  EXPECT_GT(changed(finds, stopped, left, kWidth_px), 100) << "a stopped song is not sought";
+}
+
 }  // namespace
 }  // namespace dance

@@ -63,6 +63,10 @@ class DanceStage : public OffscreenTest {
       band_asked_.emplace_back(request, style);
       return {};
     };
+    needs.music.tell_speed = [this](double speed) -> Result<void> {
+      speeds_told_.push_back(speed);
+      return {};
+    };
     needs.has_role = [](const GuestId& guest) { return guest.view() == "alice"; };
     needs.send_role = [this](const GuestId& guest, std::string_view role) -> Result<void> {
       roles_sent_.push_back(std::string(guest.view()) + ": " + std::string(role));
@@ -89,7 +93,7 @@ class DanceStage : public OffscreenTest {
     HouseLink link;
     link.state = HouseLinkState::kConnected;
     link.may_remove = true;
-    link_ = link;
+    if (is_in_room_) link_ = link;
     tell_of({{"alice", false}, {"bob"}});
   }
 
@@ -233,10 +237,11 @@ class DanceStage : public OffscreenTest {
   DancePanel* panel_ = nullptr;
   std::unique_ptr<StagePainter> painter_;
   SceneState scene_;
+  bool is_in_room_ = true;  // to be set before begin()
   std::optional<HouseLink> link_;
   std::vector<std::string> told_;
   bool plays_music_ = true;
-  std::vector<double> music_told_, music_kept_;
+  std::vector<double> music_told_, music_kept_, speeds_told_;
   std::vector<std::pair<BandRequest, int>> band_asked_;
   std::vector<std::string> roles_sent_;
   std::vector<Line> lines_;
