@@ -80,6 +80,7 @@ void practise_to(HouseConfig& session, const std::string& music) {
   hosted.file = music;
   hosted.loop = true;
   hosted.volume = session.practice_volume;
+  if (session.music) hosted.trim_ms = session.music->trim_ms;  // the loudspeaker is the same
   hosted.is_alone = session.server.empty();
   if (hosted.is_alone && !session.guests.empty()) hosted.guest = session.guests.front();
   session.music = hosted;

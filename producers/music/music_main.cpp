@@ -1,7 +1,10 @@
 // dance music: plays a music file, publishes its beats as they are heard in this house, and plays
 // in step with the room.
 
+#include <unistd.h>
+
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 
 #include "core/bus/bus.h"
@@ -19,6 +22,7 @@
 #include "producers/music/room/band_source.h"
 #include "producers/music/sound/microphone_beats.h"
 #include "producers/music/sound/pulse_player.h"
+#include "producers/music/tap/tap_program.h"
 #include "producers/music/tracker/tempo/steps_hint.h"
 
 namespace dance {
@@ -33,6 +37,7 @@ constexpr const char* kExamples = R"(Examples:
   dance music --follow                       keeps the room's time, without the song
   dance music song.ogg --silent              keeps the time only, on a machine without sound
   dance music song.ogg --trim 120ms          through a loudspeaker that is late by so much
+  dance music --tap                          finds that time: press Enter with each click
   dance music --band salsa                   the house band plays, one song after the other
   dance music --band tango --guest bob --follow
                                              the same band in all houses of the room
@@ -55,6 +60,7 @@ struct ProgramOptions {
   bool silent = false;
   bool loop = false;
   bool alone = false;
+  bool tap = false;
   bool microphone = false;
   std::string source;
   std::string band;
@@ -233,7 +239,23 @@ Result<void> play_band(const ProgramOptions& options) {
   return {};
 }
 
+// Prints what is to be put into the house file.
+Result<void> tap_along(const ProgramOptions& options) {
+  DANCE_TRY(auto poller, Poller::create());
+  if (auto stops = poller->stop_on_signals(); !stops) return stops;
+  DANCE_TRY(auto player,
+            PulsePlayer::open(std::make_unique<ClickSource>(), {options.volume, Duration()}));
+  talk::info("press Enter with each click that you hear, {} times",
+             TapDelay::kFirst + TapDelay::kTaps);
+  DANCE_TRY(const TapDelay::Result found, run_taps(*player, STDIN_FILENO, *poller));
+  const long trim_ms = std::lround(1e3 * found.delay_s);
+  std::printf("trim_ms = %ld\n", trim_ms);
+  talk::info("put this line into [music] of the house file, or start with --trim {}ms", trim_ms);
+  return {};
+}
+
 Result<void> play(const ProgramOptions& options) {
+  if (options.tap) return tap_along(options);
   if (auto hint = check_hint(options); !hint) return hint;
   if (!options.band.empty()) return play_band(options);
   if (options.microphone) return follow_microphone(options);
@@ -308,6 +330,8 @@ int main(int argc, char** argv) {
   line.add("--volume", options.volume, "0 to 1").range(0.0, 1.0);
   line.add("--trim", options.trim,
            "latency of the loudspeaker that the sound server does not know of, like 20ms");
+  line.add_flag("--tap", options.tap,
+                "find --trim: plays a click, and you press Enter with each click that you hear");
   line.add("--seconds", options.seconds, "end after so long; 0 = when it is over").range(0.0, 1e7);
   line.footer(dance::kExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::play(options); });

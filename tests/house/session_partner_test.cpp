@@ -83,6 +83,14 @@ TEST(SessionPartner, ASongToPractiseToIsTitledAndControlledInAHouseThatIsAlone) 
   EXPECT_NE(std::find(words.begin(), words.end(), "--alone"), words.end());
 }
 
+TEST(SessionPartner, ASongToPractiseToIsHeardThroughTheSameLoudspeakerAsOtherMusic) {
+  HouseConfig house = house_with_partner("[music]\nband = \"salsa\"\ntrim_ms = 180\n");
+  dance_alone(house);
+  practise_to(house, "song.ogg");
+  EXPECT_EQ(house.music->file, "song.ogg");
+  EXPECT_EQ(house.music->trim_ms, 180.0);
+}
+
 TEST(SessionPartner, AddsTheBandUnlessTheHouseHasMusicOrExcludesIt) {
   HouseConfig house = house_with_partner("");
   let_band_play(house, "swing");
