@@ -1,5 +1,7 @@
 #include "house/house.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -90,9 +92,7 @@ Result<std::unique_ptr<House>> House::open(const HouseConfig& session, Poller& p
   if (session.music) {
     DANCE_TRY(house->music_, HouseMusic::open(*session.music, house->bus_->url(), poller));
   }
-  if (session.voice && session.voice->enabled)
-    house->voice_ =
-        std::make_unique<HouseVoice>(*session.voice, house->bus_->url(), *house->port_, poller);
+  house->open_voice();
   house->profiles_ =
       std::make_unique<HouseProfiles>(session, *house->inputs_, *house->port_, this_clock_id());
   house->profiles_->publish_second(mono_now());
@@ -233,6 +233,19 @@ void House::add_talk(LinkHandlers& handlers) {
   handlers.on_refused = [this](const wire::RefusalNotice& refusal, MonoTime now) {
     troubles_.warn(refusal_line(refusal, *wire::RoomName::parse(session_.room)), now);
   };
+}
+
+// Without [voice], or with one that is not enabled, a window can still turn it on.
+void House::open_voice() {
+  HostedVoice voice = session_.voice.value_or(HostedVoice());
+  if (!session_.voice) {
+    if (session_.guests.empty() || session_.watch) return;
+    voice.guest = session_.guests.front();
+    voice.enabled = false;
+  }
+  const std::string program = program_folder() + "/dance-voice";
+  if (!voice.enabled && access(program.c_str(), X_OK) != 0) return;
+  voice_ = std::make_unique<HouseVoice>(voice, bus_->url(), *port_, poller_);
 }
 
 Result<void> House::open_avatars() {

@@ -57,6 +57,7 @@ class House {
   House(const HouseConfig& session, Poller& poller);
   void open_inputs();
   Result<void> open_link();
+  void open_voice();
   Result<void> open_avatars();
   Result<void> open_producers();
   void show_others_to(PlacedSalsa& salsa);

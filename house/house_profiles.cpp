@@ -26,6 +26,21 @@ HouseProfiles::HouseProfiles(const HouseConfig& session, SignalPort& inputs, Sig
       Where::kLocal, [this](const Channel&, const RecordingState& state, MonoTime now) {
         on_recording(state, now);
       });
+  inputs.subscribe<Profile>({Where::kCapture, GuestId()},
+                            [this](const Channel& channel, const Profile& profile, MonoTime now) {
+                              on_profile(channel.guest(), profile, now);
+                            });
+}
+
+// The program that renames a guest does not know all signs, so the whole profile is published
+// again, also for a name that the guest has already.
+void HouseProfiles::on_profile(const GuestId& guest, const Profile& profile, MonoTime now) {
+  if (std::ranges::find(published_us_, profile.time.since_zero_us()) != published_us_.end()) return;
+  const auto own = std::ranges::find(guests_, guest, &Own::guest);
+  if (own == guests_.end()) return;
+  own->name = profile.shown_name;
+  own->is_published = true;
+  publish(now);
 }
 
 void HouseProfiles::on_recording(const RecordingState& state, MonoTime now) {
@@ -49,6 +64,7 @@ void HouseProfiles::publish_second(MonoTime now) {
 }
 
 void HouseProfiles::publish(MonoTime now) {
+  published_us_[next_published_++ % published_us_.size()] = now.since_zero_us();
   for (Own& own : guests_) {
     own.is_published = own.is_published || !own.name.empty() || is_recording();
     if (own.is_published)

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -32,6 +33,27 @@ Result<void> SessionFile::save(const SessionEdit& edit) {
 
 Result<void> SessionFile::save_music_volume(double volume) {
   return change([&] { return set_music_volume(text_, volume, path_); });
+}
+
+OwnFigure SessionFile::figure(std::string_view guest) const {
+  return own_figure(text_, guest, path_).value_or(OwnFigure());
+}
+
+bool SessionFile::hosts(std::string_view guest) const {
+  const auto guests = own_guests(text_, path_);
+  return guests && std::ranges::find(*guests, guest) != guests->end();
+}
+
+Result<void> SessionFile::save_shown_name(std::string_view guest, std::string_view name) {
+  return change([&] { return set_own_name(text_, guest, name, path_); });
+}
+
+Result<void> SessionFile::save_figure(std::string_view guest, const OwnFigure& figure) {
+  return change([&] { return set_own_figure(text_, guest, figure, path_); });
+}
+
+Result<void> SessionFile::save_voice(bool is_enabled) {
+  return change([&] { return set_own_voice(text_, is_enabled, path_); });
 }
 
 template <class Edit>

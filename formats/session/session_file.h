@@ -10,6 +10,7 @@
 
 #include <string>
 
+#include "formats/session/own_edit.h"
 #include "formats/session/session_edit.h"
 
 namespace dance {
@@ -23,6 +24,14 @@ class SessionFile {
   Result<void> save(const SessionEdit& edit);
   Result<void> save_music_volume(double volume);
   double music_volume() const;
+  // What the file says of a guest of its house, and changes of it. A guest whom the file does not
+  // name as its own is an error.
+  OwnFigure figure(std::string_view guest) const;
+  bool hosts(std::string_view guest) const;
+  Result<void> save_shown_name(std::string_view guest, std::string_view name);
+  Result<void> save_figure(std::string_view guest, const OwnFigure& figure);
+  // [voice] as a whole; its other keys stay.
+  Result<void> save_voice(bool is_enabled);
   // The words of a route as they stand in the file.
   std::vector<std::string> words(std::size_t route) const;
   // Likewise those of a guest's [[style]].

@@ -18,8 +18,37 @@ constexpr int kDied = -1;  // by a signal
 
 HostedProgram::HostedProgram(Options options, Poller& poller)
     : options_(std::move(options)), poller_(poller), words_(poller) {
-  const MonoTime next = start(mono_now());
+  is_wanted_ = options_.starts;
+  const MonoTime next = is_wanted_ ? start(mono_now()) : MonoTime();
   timer_ = poller.add_timer(next, [this](MonoTime now) { return look(now); });
+}
+
+void HostedProgram::set_wanted(bool is_wanted) {
+  if (std::exchange(is_wanted_, is_wanted) == is_wanted) return;
+  const MonoTime now = mono_now();
+  if (!is_wanted && program_ && !asked_to_end_.is_set()) {
+    program_->ask_to_stop();
+    asked_to_end_ = now;
+  }
+  if (is_wanted) {
+    has_finished_ = false;
+    pause_ = Duration();
+    trouble_.clear();
+    words_.forget();
+  }
+  // A start that waits for its pause begins at once.
+  poller_.set_deadline(timer_, now);
+}
+
+MonoTime HostedProgram::wait_for_end(MonoTime now) {
+  if (!program_->has_ended()) {
+    if (now - asked_to_end_ > kProgramEnds) program_->kill_now();
+    return now + options_.look;
+  }
+  words_.end();
+  program_.reset();
+  asked_to_end_ = MonoTime();
+  return look(now);
 }
 
 HostedProgram::~HostedProgram() {
@@ -44,7 +73,8 @@ MonoTime HostedProgram::start(MonoTime now) {
 }
 
 MonoTime HostedProgram::look(MonoTime now) {
-  if (!program_) return start(now);
+  if (asked_to_end_.is_set()) return wait_for_end(now);
+  if (!program_) return is_wanted_ ? start(now) : MonoTime();
   if (!program_->has_ended()) {
     if (!works_ && options_.works(program_->pid(), started_)) note_that_it_works();
     return now + options_.look;

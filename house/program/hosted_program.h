@@ -36,6 +36,7 @@ class HostedProgram {
     Duration pause = Duration::s(10);       // before another start, at most
     Duration first_pause = Duration::s(1);  // before the next start of one that died
     Duration look = Duration::ms(200);
+    bool starts = true;  // else only set_wanted() starts it
   };
 
   HostedProgram(Options options, Poller& poller);
@@ -43,12 +44,17 @@ class HostedProgram {
   HostedProgram(const HostedProgram&) = delete;
   HostedProgram& operator=(const HostedProgram&) = delete;
 
+  // Starts the program, also one that is not started again by itself, or ends it. Waits for
+  // neither.
+  void set_wanted(bool is_wanted);
+  bool is_wanted() const { return is_wanted_; }
   // It has ended without an error, and is not started again.
   bool has_finished() const { return has_finished_; }
 
  private:
   MonoTime start(MonoTime now);
   MonoTime look(MonoTime now);
+  MonoTime wait_for_end(MonoTime now);
   void note_that_it_works();
   // Says it where it is not what was said last.
   MonoTime try_later(const std::string& trouble, MonoTime now);
@@ -61,7 +67,9 @@ class HostedProgram {
   MonoTime started_;
   Duration pause_;  // before the start after the newest death
   bool works_ = false, has_finished_ = false;
-  std::string trouble_;  // that was said; "" once it has worked
+  bool is_wanted_ = false;
+  MonoTime asked_to_end_;  // not set: it was not
+  std::string trouble_;    // that was said; "" once it has worked
   Poller::TimerId timer_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include "core/net/mono_clock.h"
 #include "lobby/checks/sound_check.h"
 #include "lobby/run/lobby_run.h"
+#include "viewer/scene/place.h"
 
 namespace dance {
 namespace {
@@ -70,8 +71,10 @@ void LobbyRun::go_in(LobbyWish wish) {
   model_.is_going_in = true;
 }
 
-// The dance panel saves into the same file.
+// A place that was chosen by key during the dance stays for the next one. The dance panel saves
+// into the same file as the lobby.
 void LobbyRun::take_choices_of_dance() {
+  model_.settings.window.place = name_of(stage_->state().place);
   if (!saved_) return;
   const auto opened = file_.open();
   if (!opened || opened->is_new) return;

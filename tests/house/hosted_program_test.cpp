@@ -7,6 +7,7 @@
 #include "core/program/talk.h"
 #include "house/voice/house_voice.h"
 #include "house/voice/voice_sign.h"
+#include "tests/core/bus/port_double.h"
 #include "tests/test_folder.h"
 
 namespace dance {
@@ -79,6 +80,46 @@ TEST_F(HostedProgramTest, WhatItCannotHaveIsSaidOnceAndThatItWorksAgainWithAllIt
   EXPECT_EQ(count_of(text, "the house goes on without tries, and starts it again"), 1) << text;
   EXPECT_EQ(count_of(text, "it rumbles\n"), 1) << text;
   EXPECT_EQ(count_of(text, "dance try works again"), 1) << text;
+}
+
+TEST_F(HostedProgramTest, EndsAndStartsOnRequest) {
+  options_.starts = false;
+  script_ = "exec sleep 100";
+  pid_t running = 0;
+  options_.works = [&](pid_t program, MonoTime) {
+    running = program;
+    return false;
+  };
+  open();
+  EXPECT_EQ(starts_, 0);
+  program_->set_wanted(true);
+  program_->set_wanted(true);
+  ASSERT_TRUE(turn_until([&] { return running > 0; }));
+  const pid_t first = running;
+  program_->set_wanted(false);
+  ASSERT_TRUE(turn_until([&] { return !send_signal(first, 0); }));
+  EXPECT_EQ(starts_, 1);
+  // Wanted again while the old one still ends: another one is started after its end.
+  program_->set_wanted(true);
+  ASSERT_TRUE(turn_until([&] { return running != first; }));
+  const pid_t second = running;
+  program_->set_wanted(false);
+  program_->set_wanted(true);
+  ASSERT_TRUE(turn_until([&] { return running != second; }));
+  EXPECT_FALSE(send_signal(second, 0));
+  EXPECT_EQ(starts_, 3);
+  EXPECT_EQ(said(), "") << "nothing failed";
+}
+
+// An end without an error is for good, until a person asks again.
+TEST_F(HostedProgramTest, StartsAgainOnRequestAfterAnEndForGood) {
+  script_ = "exit 0";
+  open();
+  ASSERT_TRUE(turn_until([&] { return program_->has_finished(); }));
+  program_->set_wanted(false);
+  program_->set_wanted(true);
+  EXPECT_TRUE(turn_until([&] { return starts_ == 2; }));
+  said();
 }
 
 TEST_F(HostedProgramTest, AfterItHasWorkedAFailureIsNews) {
@@ -194,6 +235,35 @@ TEST(HouseVoice, ReportsAVoiceWithoutSoundWhileItsProgramHasNone) {
   ::testing::internal::GetCapturedStderr();
   ASSERT_FALSE(port.published_.empty());
   EXPECT_EQ(port.published_[0], "VOICE_STATE/capture/alice");
+}
+
+// A window turns on a voice that the house file does not enable, and off again.
+TEST(HouseVoice, IsTurnedOnAndOffByAWindowAndThenHearsNobody) {
+  constexpr const char* kVoiceBus = "udpm://239.255.76.67:7755?ttl=0";
+  auto poller = Poller::create();
+  ASSERT_TRUE(poller);
+  PortDouble port;
+  std::vector<VoiceState> states;
+  HostedVoice hosted;
+  hosted.guest = *GuestId::parse("alice");
+  hosted.enabled = false;
+  port.subscribe<VoiceState>(
+      {Where::kCapture, hosted.guest},
+      [&](const Channel&, const VoiceState& state, MonoTime) { states.push_back(state); });
+  ::testing::internal::CaptureStderr();
+  {
+    const HouseVoice voice(hosted, kVoiceBus, port, **poller);
+    EXPECT_TRUE(send_voice_switch(kVoiceBus, hosted.guest, false)) << "it is off: nothing changes";
+    EXPECT_TRUE(send_voice_switch(kVoiceBus, hosted.guest, true));
+    EXPECT_TRUE(send_voice_switch(kVoiceBus, hosted.guest, false));
+    const MonoTime end = mono_now() + Duration::s(60);
+    while (states.empty() && mono_now() < end) (*poller)->run_once(Duration::ms(50));
+  }
+  const std::string said = ::testing::internal::GetCapturedStderr();
+  ASSERT_EQ(states.size(), 1u) << said;
+  EXPECT_TRUE(states[0].is_muted && states[0].is_deafened);
+  EXPECT_FALSE(states[0].is_heard);
+  EXPECT_TRUE(states[0].has_microphone && states[0].has_loudspeaker) << "no device is missing";
 }
 
 TEST(VoiceSign, IsAStateOfThisMachineWithADeviceOfAProgramThatDidNotEndSoon) {

@@ -57,6 +57,46 @@ TEST_F(HouseProfilesTest, PublishesBeginAndEndOfAWindowsRecordingAtOnce) {
   EXPECT_FALSE(published["alice"].is_recording);
 }
 
+TEST_F(HouseProfilesTest, AWindowRenamesAGuestAndTheSignsStay) {
+  HouseProfiles profiles =
+      open("[house]\nguests = [\"alice\", \"ann\"]\nshown_name = \"Alicia\"\n");
+  report(11, true, at(2));
+  const auto rename = [&](const char* guest, const char* name, MonoTime now) {
+    Profile profile{now, kClock, ShownName(), false, true};
+    EXPECT_TRUE(profile.shown_name.assign(name));
+    port.now = now;
+    port.publish(Where::kCapture, *GuestId::parse(guest), profile);
+  };
+  rename("alice", "Ali", at(3));
+  EXPECT_EQ(published["alice"].shown_name.view(), "Ali");
+  EXPECT_TRUE(published["alice"].is_recording) << "the window's message has no sign";
+  EXPECT_FALSE(published["alice"].is_host);
+  EXPECT_EQ(published["ann"].shown_name.view(), "");
+  profiles.publish_second(at(4));
+  EXPECT_EQ(published["alice"].shown_name.view(), "Ali");
+  rename("alice", "", at(5));
+  profiles.publish_second(at(6));
+  EXPECT_EQ(published["alice"].shown_name.view(), "") << "the id is shown again";
+  // A guest of another house keeps the name that its house gives it.
+  rename("bob", "Bob", at(7));
+  profiles.publish_second(at(8));
+  EXPECT_EQ(published["bob"].time, at(7));
+}
+
+// A house that accepts this guest's captures from the bus receives its own profiles there, too.
+TEST_F(HouseProfilesTest, AnOlderProfileOfItsOwnDoesNotTakeANewNameBack) {
+  HouseProfiles profiles = open("[house]\nguest = \"alice\"\nshown_name = \"Alicia\"\n");
+  profiles.publish_second(at(1));
+  const Profile own = published["alice"];
+  port.now = at(2);
+  Profile renamed{at(2) + Duration::ms(1), kClock, ShownName(), false, false};
+  ASSERT_TRUE(renamed.shown_name.assign("Ali"));
+  port.publish(Where::kCapture, *GuestId::parse("alice"), renamed);
+  port.publish(Where::kCapture, *GuestId::parse("alice"), own);
+  profiles.publish_second(at(3));
+  EXPECT_EQ(published["alice"].shown_name.view(), "Ali");
+}
+
 TEST_F(HouseProfilesTest, DropsAWindowThatEndedWithoutAReport) {
   HouseProfiles profiles = open("[house]\nguest = \"alice\"\n");
   report(11, true, at(2));

@@ -23,6 +23,27 @@ LobbyModel model_at(const char* server) {
   return model;
 }
 
+TEST(LobbyModel, TakesWhatWasChangedDuringADanceAndNothingElse) {
+  LobbyModel model = model_at("example.org");
+  const LobbySettings before = model.settings;
+  model.settings.room = "tango";  // not saved yet
+  LobbySettings after = before;
+  after.shown_name = "Alicia";
+  after.avatar = "teo";
+  after.figure_height = 1.1;
+  after.speaks = true;
+  after.has_headphones = true;
+  after.server = "elsewhere.org";
+  model.take_changes(before, after);
+  EXPECT_EQ(model.settings.shown_name, "Alicia");
+  EXPECT_EQ(model.name_typed, "Alicia");
+  EXPECT_EQ(model.settings.avatar, "teo");
+  EXPECT_EQ(model.settings.figure_height, 1.1);
+  EXPECT_TRUE(model.settings.speaks && model.settings.has_headphones);
+  EXPECT_EQ(model.settings.room, "tango");
+  EXPECT_EQ(model.settings.server, "example.org");
+}
+
 TEST(LobbyModel, EachClickHasItsCommand) {
   LobbyModel model = model_at("");
   EXPECT_EQ(model.command(LobbyWish::kJoin), "dance join ~/.config/dancegraph/house.toml");

@@ -4,8 +4,8 @@
 //
 // Units/frames: times of the house's clock.
 // Ownership:    bounded rings and mailboxes; never allocates after construction.
-// Threads:      on_*(), take_asked() and take_written() on the bus thread; the rest on the drawing
-//               thread.
+// Threads:      on_*(), take_asked(), take_written() and take_renamed() on the bus thread; the rest
+//               on the drawing thread.
 // Failure:      a display that draws nothing for long misses the oldest.
 #pragma once
 
@@ -48,6 +48,8 @@ class DanceBoard {
   std::optional<OfGuest<std::int32_t>> take_asked() { return asked_.pop(); }
   // A line or sign that a guest of this house sends; the caller sets its time.
   std::optional<OfGuest<Chat>> take_written() { return written_.pop(); }
+  // A name for a guest of this house; "" = the id.
+  std::optional<OfGuest<ShownName>> take_renamed() { return renamed_.pop(); }
   bool is_recording() const { return is_recording_.load(std::memory_order_relaxed); }
   // Where they have changed.
   const HiddenGuests* take_hidden() { return hidden_.take(); }
@@ -61,6 +63,7 @@ class DanceBoard {
   // The guest is to be removed from the room; the number tells this wish from others.
   void ask(const GuestId& guest, std::int32_t number) { asked_.push({guest, number}); }
   void write(const GuestId& guest, const Chat& chat) { written_.push({guest, chat}); }
+  void rename(const GuestId& guest, const ShownName& name) { renamed_.push({guest, name}); }
   // This window records.
   void set_recording(bool is) { is_recording_.store(is, std::memory_order_relaxed); }
   // Those who are not drawn in this window: no poses of them are wanted.
@@ -72,6 +75,7 @@ class DanceBoard {
   SpscRing<Heard<VoiceLevel>, 256> levels_;
   SpscRing<OfGuest<std::int32_t>, 64> asked_;
   SpscRing<OfGuest<Chat>, 8> written_;
+  SpscRing<OfGuest<ShownName>, 8> renamed_;
   Latest<Music> music_;
   Latest<RoomSong> song_;
   Latest<HiddenGuests> hidden_;

@@ -59,7 +59,9 @@ std::span<const KeyHelp> DancePanel::keys() const { return kDanceKeys; }
 void DancePanel::open(bool is_open) {
   is_open_ = is_open;
   to_be_removed_ = GuestId();
-  if (!is_open) controls_.let_go();
+  if (is_open) return;
+  controls_.let_go();
+  own_.close();
 }
 
 bool DancePanel::on_key(const KeyPress& press) {
@@ -69,6 +71,7 @@ bool DancePanel::on_key(const KeyPress& press) {
     answer_closing(is_enter);
     return true;
   }
+  if (is_open_ && own_.on_key(press)) return true;
   if (press.key == GLFW_KEY_ESCAPE && !press.is_repeat) {
     open(!is_open_);
     return true;
@@ -107,6 +110,7 @@ void DancePanel::work(const PanelFrame& frame) {
   removal_.follow(records_.link(), needs_.board, now);
   tell_volumes_anew(frame.scene);
   music_.work(is_open_, now);
+  own_.work();
   count_ = count_in_.at(frame.scene.music);
   note_mouse(now);
 }
@@ -236,11 +240,14 @@ void DancePanel::draw_own(const PanelFrame& frame) {
   section(texts_[Text::kDanceYou]);
   if (frame.scene.voices.empty()) {
     dance_ink::text(dance_ink::kQuiet, texts_[Text::kDanceNoVoice]);
-    return;
+    return draw_voice_switch(GuestId(), frame.scene.time);
   }
   const float em = ImGui::GetFontSize();
   const SceneVoice& voice = frame.scene.voices.front();
-  if (voice.has_no_sound()) return dance_ink::text(dance_ink::kFair, texts_[Text::kBannerNoSound]);
+  if (voice.has_no_sound()) {
+    dance_ink::text(dance_ink::kFair, texts_[Text::kBannerNoSound]);
+    return draw_voice_switch(voice.guest, frame.scene.time);
+  }
   const bool is_off = voice.is_muted || voice.is_deafened;
   const auto level = records_.level_of(voice.guest, frame.scene.time);
   const ImVec2 low = ImGui::GetCursorScreenPos();
@@ -259,9 +266,20 @@ void DancePanel::draw_own(const PanelFrame& frame) {
           "speaker", texts_[speaker],
           voice.is_deafened ? PanelControls::Look::kWarning : PanelControls::Look::kPlain))
     ++needs_.wishes.deafen_presses;
+  draw_voice_switch(voice.guest, frame.scene.time);
   if (!is_off && voice.is_push_to_talk)
     dance_ink::text(voice.is_heard ? dance_ink::kGood : dance_ink::kQuiet,
                     texts_[voice.is_heard ? Text::kDanceTalking : Text::kDanceTalkHint]);
+}
+
+// `speaker`: whose voice runs here; not set: nobody's.
+void DancePanel::draw_voice_switch(const GuestId& speaker, MonoTime now) {
+  const GuestId& guest = own_.voice_guest(records_.guests(), now);
+  if (!guest.is_set() || (speaker.is_set() && speaker != guest)) return;
+  const bool is_on = speaker.is_set();
+  const char* label = texts_[is_on ? Text::kOwnVoiceOff : Text::kOwnVoiceOn];
+  if (is_on) controls_.flow(controls_.width_of(label));
+  if (controls_.button("voice-switch", label)) own_.switch_voice(guest, !is_on);
 }
 
 void DancePanel::draw_footer(const PanelFrame& frame) {

@@ -19,6 +19,7 @@
 #include "viewer/dance_panel/dance_records.h"
 #include "viewer/dance_panel/dance_wishes.h"
 #include "viewer/dance_panel/music_desk.h"
+#include "viewer/dance_panel/own/own_choices.h"
 #include "viewer/dance_panel/panel_controls.h"
 #include "viewer/dance_panel/recording.h"
 #include "viewer/dance_panel/removal_desk.h"
@@ -41,6 +42,7 @@ struct DanceNeeds {
   // The guest is a synthetic dancer of this house; `role` is "lead", "follow" or "any".
   std::function<bool(const GuestId& guest)> has_role = {};
   std::function<Result<void>(const GuestId& guest, std::string_view role)> send_role = {};
+  OwnNeeds own = {};
 };
 
 class DancePanel : public WindowPanel {
@@ -49,7 +51,8 @@ class DancePanel : public WindowPanel {
       : needs_(std::move(needs)),
         texts_(needs_.language),
         recording_(needs_.recording),
-        music_(needs_.music) {}
+        music_(needs_.music),
+        own_(needs_.own, needs_.language) {}
   ~DancePanel() override { music_.keep(); }
 
   void open(bool is_open);
@@ -63,6 +66,7 @@ class DancePanel : public WindowPanel {
   std::span<const KeyHelp> keys() const override;
   bool is_open() const override { return is_open_; }
   bool on_key(const KeyPress& press) override;
+  bool on_character(char32_t character) override { return own_.on_character(character); }
   void draw(const PanelFrame& frame) override;
 
  private:
@@ -85,6 +89,7 @@ class DancePanel : public WindowPanel {
   void draw_lamps(const SceneMusic& music) const;
   void draw_music_volume(MonoTime now);
   void draw_own(const PanelFrame& frame);
+  void draw_voice_switch(const GuestId& speaker, MonoTime now);
   void draw_footer(const PanelFrame& frame);
   void act(BannerAction action);
 
@@ -100,6 +105,7 @@ class DancePanel : public WindowPanel {
   void draw_guests(const PanelFrame& frame, float height);
   void draw_guest(const PanelFrame& frame, const DanceGuest& guest);
   void draw_choices(const PanelFrame& frame, const DanceGuest& guest);
+  std::string_view chosen_name(const GuestId& guest) const;
   void draw_removal(const DanceGuest& guest, MonoTime now);
   std::string removal_question(const DanceGuest& guest) const;
   float guests_height() const;
@@ -119,6 +125,7 @@ class DancePanel : public WindowPanel {
   Arrivals arrivals_;
   DanceRecording recording_;
   MusicDesk music_;
+  OwnChoices own_;
   RemovalDesk removal_;
   CountIn count_in_;
   std::optional<CountIn::Count> count_;

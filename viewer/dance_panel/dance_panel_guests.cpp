@@ -71,7 +71,7 @@ float DancePanel::guest_height(const DanceGuest& guest) const {
     return height + line + kChoiceGap_em * em +
            dance_ink::wrapped_height(removal_question(guest), width);
   const bool shows_roles = has_role_ && role_guest_ == guest.id;
-  if (!guest.is_remote) return height + (shows_roles ? 4.0f : 2.0f) * line;
+  if (!guest.is_remote) return height + (shows_roles ? 4.0f : 2.0f) * line + own_.height_px();
   // As flow() puts the buttons.
   const float between = ImGui::GetStyle().ItemSpacing.x;
   const Text mute = records_.is_voice_muted(guest.id) ? Text::kDanceUnmute : Text::kDanceMute;
@@ -112,6 +112,7 @@ void DancePanel::draw_guest(const PanelFrame& frame, const DanceGuest& guest) {
   if (controls_.row("row", kRow_em * em)) {
     chosen_ = chosen_ == guest.id ? GuestId() : guest.id;
     to_be_removed_ = GuestId();
+    own_.close();
   }
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float middle = low.y + 0.5f * kRow_em * em, text_y = middle - 0.5f * em;
@@ -181,6 +182,7 @@ void DancePanel::draw_choices(const PanelFrame& frame, const DanceGuest& guest) 
     set_hidden(guest.id, choice.is_hidden);
   }
   draw_roles(guest, frame.scene.time);
+  if (!guest.is_remote) own_.draw(controls_, guest.id, chosen_name(guest.id));
   if (guest.is_remote && may_remove()) {
     controls_.flow(controls_.width_of(texts_[Text::kDanceRemove]));
     if (controls_.button("remove", texts_[Text::kDanceRemove])) {
@@ -198,6 +200,14 @@ void DancePanel::draw_choices(const PanelFrame& frame, const DanceGuest& guest) 
     }
   }
   ImGui::Unindent(kIndent_em * em);
+}
+
+// Without the id that follows a name like another guest's.
+std::string_view DancePanel::chosen_name(const GuestId& guest) const {
+  std::string_view name = names_.find(guest);
+  const std::string id = " (" + std::string(guest.view()) + ")";
+  if (name.ends_with(id)) name.remove_suffix(id.size());
+  return name;
 }
 
 void DancePanel::draw_removal(const DanceGuest& guest, MonoTime now) {

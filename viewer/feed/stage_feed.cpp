@@ -249,6 +249,10 @@ void StageFeed::publish_figures(MonoTime now) {
 void StageFeed::publish_counters(MonoTime now) {
   counted_ = now;
   Stats stats;
+  while (const auto renamed = dance_.take_renamed())
+    port_->publish(
+        Where::kCapture, renamed->guest,
+        Profile{mono_now(), this_clock_id(), renamed->what, recording_.is_recording, false});
   stats.time = now;
   stats.clock_id = this_clock_id();
   stats.uptime = now - begin_;

@@ -1,10 +1,13 @@
 #include "viewer/window/window_panels.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
 
 #include "core/control/role_control.h"
+#include "core/control/voice_switch.h"
 #include "core/program/program.h"
 #include "producers/music/band/band_song.h"
 #include "producers/music/control/music_control.h"
@@ -14,6 +17,7 @@
 #include "viewer/style_panel/style_panel.h"
 #include "viewer/window/help_panel.h"
 #include "viewer/window/window_keys.h"
+#include "viewer/window/own_figures.h"
 #include "voice/control/voice_control.h"
 
 namespace dance {
@@ -57,6 +61,32 @@ MusicDesk::Needs music_needs(const std::string& bus, std::shared_ptr<SessionFile
 }
 
 // Adds the panel of a live house and returns it; a recording has none: nullptr.
+OwnNeeds own_needs(DanceBoard& board, const std::string& bus, std::shared_ptr<SessionFile> file) {
+  OwnNeeds own;
+  own.rename = [&board](const GuestId& guest, const ShownName& name) { board.rename(guest, name); };
+  const std::string program = program_folder() + "/dance-avatar";
+  if (access(program.c_str(), X_OK) == 0) own.figures.program = program;
+  own.figures.bus = bus;
+  own.figures.list = [] { return figures_of(AvatarStore::of_user(), data_folder() + "/avatars"); };
+  own.has_voice_switch = [bus](const GuestId& guest) { return has_voice_switch(bus, guest); };
+  own.switch_voice = [bus](const GuestId& guest, bool is_on) {
+    return send_voice_switch(bus, guest, is_on);
+  };
+  if (!file) return own;
+  own.figures.current = [file](const GuestId& guest) { return file->figure(guest.view()); };
+  // A guest who dances here instead of the file's is not kept.
+  own.figures.keep = [file](const GuestId& guest, const OwnFigure& figure) {
+    return file->hosts(guest.view()) ? file->save_figure(guest.view(), figure) : Result<void>();
+  };
+  own.keep_name = [file](const GuestId& guest, std::string_view name) {
+    return file->hosts(guest.view()) ? file->save_shown_name(guest.view(), name) : Result<void>();
+  };
+  own.keep_voice = [file](const GuestId& guest, bool is_on) {
+    return file->hosts(guest.view()) ? file->save_voice(is_on) : Result<void>();
+  };
+  return own;
+}
+
 DancePanel* add_dance_panel(const PanelNeeds& needs, const WindowPanel& at_right,
                             std::shared_ptr<SessionFile> file, PanelStack& panels) {
   DanceBoard* board = needs.source.dance();
@@ -72,7 +102,8 @@ DancePanel* add_dance_panel(const PanelNeeds& needs, const WindowPanel& at_right
                    recording_options(options),
                    {},
                    {},
-                   music_needs(options.feed.bus_url, std::move(file))};
+                   music_needs(options.feed.bus_url, file)};
+  dance.own = own_needs(*board, options.feed.bus_url, std::move(file));
   dance.tell_voice = [bus = options.feed.bus_url](const GuestId& guest, std::string_view command) {
     return tell_voice(bus, guest, command);
   };

@@ -16,6 +16,7 @@
 #include "viewer/words/invite_texts.h"
 #include "viewer/words/key_texts.h"
 #include "viewer/words/lobby_texts.h"
+#include "viewer/words/own_texts.h"
 #include "viewer/words/shelf_texts.h"
 
 // clang-format off
@@ -34,4 +35,5 @@
   DANCE_KEY_TEXTS(ROW) \
   DANCE_LOBBY_TEXTS(ROW) \
   DANCE_SHELF_TEXTS(ROW)
+  DANCE_OWN_TEXTS(ROW) \
 // clang-format on

@@ -76,6 +76,7 @@ class DanceStage : public OffscreenTest {
       told_.push_back(std::string(guest.view()) + ": " + std::string(command));
       return {};
     };
+    needs.own = own_needs_;
     auto panel = std::make_unique<DancePanel>(std::move(needs));
     panel_ = panel.get();
     panels_.add(std::move(panel));
@@ -232,6 +233,7 @@ class DanceStage : public OffscreenTest {
   InstrumentBoard instruments_{kHouseClock};
   InstrumentRecords figures_;
   DanceWishes wishes_;
+  OwnNeeds own_needs_;  // set before begin()
   BannerWatch::Drawing drawing_;
   PanelStack panels_;
   DancePanel* panel_ = nullptr;
