@@ -1,7 +1,7 @@
 // DancePanel: the house band, and the roles of synthetic dancers.
 #include <tuple>
 
-#include "core/base/music_speed.h"
+#include "core/base/music/music_speed.h"
 #include "viewer/dance_panel/dance_ink.h"
 #include "viewer/dance_panel/dance_panel.h"
 

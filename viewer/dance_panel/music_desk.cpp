@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/base/music_speed.h"
+#include "core/base/music/music_speed.h"
 
 namespace dance {
 

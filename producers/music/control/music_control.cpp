@@ -4,7 +4,7 @@
 
 #include <charconv>
 
-#include "core/base/music_speed.h"
+#include "core/base/music/music_speed.h"
 #include "core/base/plain_number.h"
 #include "core/bus/bus.h"
 

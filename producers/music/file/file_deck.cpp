@@ -1,6 +1,6 @@
 #include "producers/music/file/file_deck.h"
 
-#include "core/base/music_speed.h"
+#include "core/base/music/music_speed.h"
 #include "core/net/mono_clock.h"
 #include "core/program/talk.h"
 #include "producers/music/beats_file.h"

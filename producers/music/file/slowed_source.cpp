@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/base/music_speed.h"
+#include "core/base/music/music_speed.h"
 
 namespace dance {
 namespace {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+
+#include "core/base/median.h"
 
 namespace dance {
 namespace {
@@ -13,11 +16,6 @@ constexpr double kDeviation = 1.4826;
 
 // Into half a period around 0.
 double wrapped(double s) { return s - TapDelay::kPeriod_s * std::round(s / TapDelay::kPeriod_s); }
-
-double median_of(std::array<double, TapDelay::kTaps> values) {
-  std::sort(values.begin(), values.end());
-  return 0.5 * (values[(TapDelay::kTaps - 1) / 2] + values[TapDelay::kTaps / 2]);
-}
 
 }  // namespace
 
@@ -45,9 +43,9 @@ TapDelay::Result TapDelay::result() const {
   });
   std::array<double, kTaps> off{};
   for (std::size_t i = 0; i < kTaps; ++i) off[i] = wrapped(late_s_[i] - centre);
-  const double median = median_of(off);
+  const double median = median_of(std::span<double>(off));
   for (double& each : off) each = std::abs(each - median);
-  result.spread_s = kDeviation * median_of(off);
+  result.spread_s = kDeviation * median_of(std::span<double>(off));
   if (result.spread_s > kMostSpread_s) {
     result.state = State::kScattered;
     return result;

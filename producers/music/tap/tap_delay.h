@@ -16,7 +16,7 @@ class TapDelay {
  public:
   static constexpr double kPeriod_s = 0.8;        // of the click
   static constexpr double kLeast_s = -0.2;        // a delay is in this period
-  static constexpr std::size_t kTaps = 12;        // that are judged
+  static constexpr std::size_t kTaps = 11;        // that are judged
   static constexpr std::size_t kFirst = 2;        // until one taps in time: not judged
   static constexpr double kMostSpread_s = 0.040;  // standard deviation, by the median deviation
 

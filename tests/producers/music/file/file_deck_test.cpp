@@ -8,7 +8,7 @@
 #include <fstream>
 #include <functional>
 
-#include "core/base/music_speed.h"
+#include "core/base/music/music_speed.h"
 #include "core/net/mono_clock.h"
 #include "producers/music/file/song_folder.h"
 #include "tests/core/bus/port_double.h"
