@@ -1,6 +1,8 @@
 // dance join: all of a house in one: manager, link and hosted producers in this process, the viewer
 // beside it.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -44,6 +46,8 @@ constexpr const char* kExamples = R"(Examples:
                                                      without the server; a synthetic partner
   dance join sessions/alice.toml --alone --music song.ogg --view mirror
                                                      practice with music, before a mirror
+  dance join sessions/alice.toml --alone --teacher lesson.bvh --teacher-speed 0.75
+                                                     beside a recorded teacher
   dance join sessions/alice.toml --watch             with alice's key, without dancing
   dance join sessions/alice.toml --no-view           without a window
 )";
@@ -68,6 +72,9 @@ struct JoinOptions {
   std::string band;
   std::string view;
   std::string place;
+  std::string teacher;
+  double teacher_speed = 1.0;
+  bool teacher_mirrored = false;
   bool alone = false;
   bool confirms = false;
   bool voice = false;
@@ -229,6 +236,8 @@ Result<HouseConfig> session_of(const JoinOptions& options) {
     session.bus_captures.push_back(*guest);
   }
   if (options.no_view) session.view = false;
+  if (!options.teacher.empty() && !session.view)
+    return fail("--teacher stands in the window only; leave out --no-view, or set view = true");
   // Without a window the house is a service, which plays no band unless it is asked to.
   const std::string band = options.band.empty() && session.view ? kUsualBand : options.band;
   if (!band.empty() && band != kNoBand) {
@@ -251,6 +260,12 @@ std::vector<std::string> viewer_arguments(const JoinOptions& options, const Hous
                    {"--place", options.place.empty() ? session.window.place : options.place});
   if (is_session_file(options))
     arguments.insert(arguments.end(), {"--session", options.host_or_session});
+  if (options.teacher.empty()) return arguments;
+  arguments.insert(arguments.end(), {"--teacher=" + options.teacher,
+                                     fmt::format("--teacher-speed={:g}", options.teacher_speed)});
+  if (options.teacher_mirrored) arguments.emplace_back("--teacher-mirrored");
+  if (!session.guests.empty())
+    arguments.insert(arguments.end(), {"--pupil", std::string(session.guests.front().view())});
   return arguments;
 }
 
@@ -354,6 +369,12 @@ int main(int argc, char** argv) {
   for (const dance::PlaceName& it : dance::kPlaceNames) places.emplace_back(it.option);
   line.add("--place", options.place, "where the viewer's stage is: as dance view --place")
       .one_of(places);
+  line.add("--teacher", options.teacher,
+           "a recording whose dancer stands beside the first guest in the window, and nowhere "
+           "else: as dance view --teacher");
+  line.add("--teacher-speed", options.teacher_speed, "from half to full speed, as 0.75")
+      .range(0.5, 1.0);
+  line.add_flag("--teacher-mirrored", options.teacher_mirrored, "left is right");
   line.add("--bus", options.bus, "LCM URL of the house's bus, instead of the session file's");
   line.add("--bus-captures", options.bus_captures,
            "guest whose captures are accepted from the bus, for programs that are not part of "

@@ -57,6 +57,7 @@ WindowChoices read_window(TomlReader& reader, const std::string& folder) {
     reader.complain("band", "is one of: " + band_style_names() + ", none");
   window.music = window_file(reader, "music", folder);
   window.mirror = reader.bool_or("mirror", window.mirror);
+  window.teacher = window_file(reader, "teacher", folder);
   window.place = reader.string_or("place", window.place);
   if (!parse_place(window.place)) reader.complain("place", "is one of: " + std::string(kPlaceList));
   window.letters = reader.number_or("letters", window.letters, WindowChoices::kSmallestLetters,

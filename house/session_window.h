@@ -41,6 +41,7 @@ struct WindowChoices {
   std::string band = "salsa";      // style of the house band, or "none"
   std::string music;               // to practise with; "" = the band
   bool mirror = true;              // practise before a mirror
+  std::string teacher;             // a recording to practise beside; "" = none
   std::string place = "studio";    // one of the names in viewer/scene/place.h
   double letters = 1.0;            // size of letters, times the usual one
   // With frame and task bar they fit a screen of 1366 by 768.

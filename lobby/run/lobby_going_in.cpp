@@ -84,4 +84,14 @@ void LobbyRun::take_choices_of_dance() {
   saved_ = opened->settings;
 }
 
+void LobbyRun::choose_practice_view() {
+  const WindowChoices& window = model_.settings.window;
+  view_.panel = "practice";
+  view_.pupil = GuestId::parse(model_.settings.name);
+  view_.teacher.file = window.teacher;
+  if (!window.mirror) return;
+  view_.view = ViewMode::kMirror;
+  view_.focus = view_.pupil;
+}
+
 }  // namespace dance

@@ -315,9 +315,7 @@ Result<void> LobbyRun::begin_dance() {
   view_.language = model_.texts.language();
   view_.place = parse_place(house.window.place);
   view_.hosts_room = host_.is_running();
-  const bool is_mirror = house_for_ == LobbyWish::kPractise && model_.settings.window.mirror;
-  if (is_mirror) view_.view = ViewMode::kMirror;
-  if (is_mirror) view_.focus = GuestId::parse(model_.settings.name);
+  if (house_for_ == LobbyWish::kPractise) choose_practice_view();
   DANCE_TRY(source_, PictureSource::open(view_));
   shelf_.note_dance_begins();
   release_painters();
@@ -354,8 +352,6 @@ Result<void> LobbyRun::turn_of_dance() {
 
 Result<void> LobbyRun::end_dance() {
   const bool has_signal = source_->is_over();
-  // A place that was chosen by key during the dance stays for the next one.
-  model_.settings.window.place = name_of(stage_->state().place);
   take_choices_of_dance();
   window_ = WindowRun::close(std::move(stage_));
   stage_.reset();

@@ -73,6 +73,7 @@ class LobbyRun {
   bool has_house_ended();
   void stop_house();
   Result<void> begin_dance();
+  void choose_practice_view();
   Result<void> turn_of_dance();
   Result<void> end_dance();
   void take_choices_of_dance();

@@ -64,6 +64,20 @@ void draw_place(LobbyModel& model, LobbyKit& kit) {
   }
 }
 
+void draw_teacher(LobbyModel& model, LobbyKit& kit) {
+  const Texts& t = model.texts;
+  std::string& teacher = model.settings.window.teacher;
+  kit.label(t[Text::kLobbyTeacher]);
+  ImGui::PushID("teacher");
+  if (kit.choice(t[Text::kLobbyNo], teacher.empty())) teacher.clear();
+  const std::string words = LobbyKit::shortened(
+      teacher.empty() ? t[Text::kLobbyChooseFile] : last_part(teacher), kit.px(300.0f));
+  kit.beside(words.c_str());
+  if (kit.choice(words.c_str(), !teacher.empty()))
+    model.chooser.open(ChooserPurpose::kTeacher, teacher);
+  ImGui::PopID();
+}
+
 void draw_practice(LobbyModel& model, LobbyKit& kit) {
   const Texts& t = model.texts;
   WindowChoices& window = model.settings.window;
@@ -87,6 +101,7 @@ void draw_practice(LobbyModel& model, LobbyKit& kit) {
   kit.beside(t[Text::kLobbyNo]);
   if (kit.choice(t[Text::kLobbyNo], !window.mirror)) window.mirror = false;
   ImGui::PopID();
+  draw_teacher(model, kit);
 }
 
 // The two big buttons.

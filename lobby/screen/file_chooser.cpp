@@ -32,6 +32,7 @@ bool is_file_for(ChooserPurpose purpose, std::string_view name) {
   switch (purpose) {
     case ChooserPurpose::kMotion:
     case ChooserPurpose::kPartner:
+    case ChooserPurpose::kTeacher:
       return ends({".bvh", ".bvh.xz", ".glb", ".gltf", ".vrma", ".lcm"});
     case ChooserPurpose::kMusic:
       return ends({".ogg", ".opus", ".flac", ".wav", ".mp3", ".m4a", ".aac"});

@@ -12,7 +12,7 @@
 
 namespace dance {
 
-enum class ChooserPurpose { kNone, kMotion, kPartner, kMusic, kAvatar, kVideo };
+enum class ChooserPurpose { kNone, kMotion, kPartner, kTeacher, kMusic, kAvatar, kVideo };
 
 class FileChooser {
  public:

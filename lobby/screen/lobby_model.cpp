@@ -212,6 +212,8 @@ std::string LobbyModel::command(LobbyWish what) const {
     case LobbyWish::kPractise: {
       std::string line = join + " --alone";
       if (!settings.window.music.empty()) line += " --music " + shell_word(settings.window.music);
+      if (!settings.window.teacher.empty())
+        line += " --teacher " + shell_word(settings.window.teacher);
       return settings.window.mirror ? line + " --view mirror" : line;
     }
     case LobbyWish::kOpenRoom:

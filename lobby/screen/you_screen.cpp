@@ -209,6 +209,9 @@ void draw_file_chooser(LobbyModel& model, LobbyKit& kit) {
       case ChooserPurpose::kPartner:
         settings.window.partner = path;
         break;
+      case ChooserPurpose::kTeacher:
+        settings.window.teacher = path;
+        break;
       case ChooserPurpose::kMusic:
         settings.window.music = path;
         break;

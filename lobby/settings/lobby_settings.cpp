@@ -243,6 +243,8 @@ Result<void> edit_window(SessionText& text, const WindowChoices& now, const Wind
   if (now.music != wanted.music) LOBBY_TRY(text.set_text(kWindowTable, "music", wanted.music));
   if (now.mirror != wanted.mirror)
     LOBBY_TRY(text.set(kWindowTable, "mirror", wanted.mirror ? "true" : "false"));
+  if (now.teacher != wanted.teacher)
+    LOBBY_TRY(text.set_text(kWindowTable, "teacher", wanted.teacher));
   if (now.letters != wanted.letters)
     LOBBY_TRY(wanted.letters == 1.0
                   ? text.remove(kWindowTable, "letters")

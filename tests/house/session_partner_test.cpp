@@ -114,7 +114,8 @@ TEST(SessionPartner, AddsTheBandUnlessTheHouseHasMusicOrExcludesIt) {
 TEST(SessionWindow, IsReadAndItsErrorsHaveAPlace) {
   const HouseConfig house = house_with_partner(
       "[window]\nlanguage = \"de\"\nrooms = [\"salsa@a.org:7400\"]\nmirror = false\n"
-      "place = \"bar\"\n");
+      "place = \"bar\"\nteacher = \"/dances/lesson.bvh\"\n");
+  EXPECT_EQ(house.window.teacher, "/dances/lesson.bvh");
   EXPECT_EQ(house.window.language, "de");
   ASSERT_EQ(house.window.rooms.size(), 1u);
   EXPECT_EQ(house.window.rooms[0].server, "a.org:7400");

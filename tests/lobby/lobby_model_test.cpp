@@ -56,6 +56,9 @@ TEST(LobbyModel, EachClickHasItsCommand) {
             "dance join ~/.config/dancegraph/house.toml --alone --music song.ogg --view mirror");
   model.settings.window.mirror = false;
   EXPECT_EQ(model.command(LobbyWish::kPractise).find("--view"), std::string::npos);
+  model.settings.window.teacher = "lesson one.bvh";
+  EXPECT_TRUE(model.command(LobbyWish::kPractise)
+                  .ends_with(" --music song.ogg --teacher 'lesson one.bvh'"));
   model.host.guest = "Bob";
   model.host.address = "example.org";
   EXPECT_EQ(model.command(LobbyWish::kInvite),

@@ -211,6 +211,7 @@ LobbySettings any_settings(Dice& dice) {
   it.window.music = dice.one_of<S>({"", "/m/song.ogg"});
   it.window.band = dice.one_of<S>({"salsa", "tango", "none"});
   it.window.mirror = dice.one_of({true, false});
+  it.window.teacher = dice.one_of<S>({"", "/m/lesson.bvh"});
   it.window.place = dice.one_of<S>({"studio", "bar", "plain"});
   it.window.letters = dice.one_of({1.0, 0.9, 1.3});
   it.window.width_px = dice.one_of({1280, 1921});

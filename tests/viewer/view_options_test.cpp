@@ -96,5 +96,19 @@ TEST(ParseSize, RefusesEverythingElseInOneLine) {
   }
 }
 
+TEST(CheckTeacher, NeedsARecordingALiveHouseAndAWindow) {
+  ViewOptions options;
+  EXPECT_TRUE(check_teacher(options));
+  options.teacher.choices.speed = 0.5;
+  EXPECT_FALSE(check_teacher(options)) << "whose speed?";
+  options.teacher.file = "lesson.bvh";
+  EXPECT_TRUE(check_teacher(options));
+  options.headless = true;
+  EXPECT_FALSE(check_teacher(options));
+  options.headless = false;
+  options.log = "evening.lcm";
+  EXPECT_FALSE(check_teacher(options));
+}
+
 }  // namespace
 }  // namespace dance

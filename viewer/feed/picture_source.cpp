@@ -18,6 +18,7 @@ class LiveSource final : public PictureSource {
   GuestBoard& board() override { return feed_->board(); }
   InstrumentBoard& instruments() override { return feed_->instruments(); }
   DanceBoard* dance() override { return &feed_->dance(); }
+  StepScoreBoard* step_scores() override { return &feed_->step_scores(); }
   MonoTime begin() const override { return begin_; }
   MonoTime wait_until(MonoTime moment) override {
     constexpr Duration kLook = Duration::ms(20);

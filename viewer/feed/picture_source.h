@@ -16,6 +16,7 @@
 #include "viewer/feed/guest_board.h"
 #include "viewer/feed/stage_roster.h"
 #include "viewer/instruments/instrument_board.h"
+#include "viewer/practice/step_score_board.h"
 #include "viewer/program/view_options.h"
 
 namespace dance {
@@ -31,6 +32,8 @@ class PictureSource {
   virtual InstrumentBoard& instruments() = 0;
   // Of a live house; nullptr of a recorded one.
   virtual DanceBoard* dance() { return nullptr; }
+  // The same.
+  virtual StepScoreBoard* step_scores() { return nullptr; }
   virtual MonoTime begin() const = 0;
   // Waits until that moment or a request to end; returns the present time.
   virtual MonoTime wait_until(MonoTime moment) = 0;

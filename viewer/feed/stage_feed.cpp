@@ -48,6 +48,7 @@ bool is_for_board(const FeedOptions& options, Where where) {
 StageFeed::StageFeed(const FeedOptions& options)
     : board_(this_clock_id(), options.stage_only || options.shown == Shown::kStage),
       instruments_(this_clock_id()),
+      step_scores_(this_clock_id()),
       begin_(mono_now()) {
   hidden_.clock_id = this_clock_id();
   hidden_.viewer = recording_.viewer = secure_random_u64() | 1;
@@ -66,6 +67,7 @@ Result<std::unique_ptr<StageFeed>> StageFeed::create(const FeedOptions& options)
   feed->subscribe(options);
   feed->measure(options);
   feed->hear_house();
+  feed->count_steps();
   feed->thread_ = std::thread([raw = feed.get()] { raw->run(); });
   return feed;
 }
@@ -214,6 +216,21 @@ void StageFeed::hear_house() {
                              });
 }
 
+// The steps of this house's dancers, whatever is shown of them.
+void StageFeed::count_steps() {
+  bus_->subscribe<Pose>(Where::kCapture,
+                        [this](const Channel& channel, const Pose& pose, MonoTime now) {
+                          step_scores_.on_pose(channel.guest(), pose, now);
+                        });
+  bus_->subscribe<TimedSkeleton>(
+      Where::kCapture, [this](const Channel& channel, const TimedSkeleton& skeleton, MonoTime now) {
+        step_scores_.on_skeleton(channel.guest(), skeleton.skeleton, now);
+      });
+  bus_->subscribe<Beat>(Where::kLocal, [this](const Channel&, const Beat& beat, MonoTime) {
+    step_scores_.on_beat(beat);
+  });
+}
+
 // What a panel asks for.
 void StageFeed::publish_asked() {
   if (dance_.is_recording() != recording_.is_recording) {
@@ -232,6 +249,10 @@ void StageFeed::publish_asked() {
     written->what.clock_id = this_clock_id();
     port_->publish(Where::kCapture, written->guest, written->what);
   }
+  while (const auto renamed = dance_.take_renamed())
+    port_->publish(
+        Where::kCapture, renamed->guest,
+        Profile{mono_now(), this_clock_id(), renamed->what, recording_.is_recording, false});
   while (const auto asked = instruments_.take_asked_flow())
     port_->publish(Where::kCapture, asked->guest, asked->what);
   while (const auto asked = instruments_.take_asked_style())
@@ -249,10 +270,6 @@ void StageFeed::publish_figures(MonoTime now) {
 void StageFeed::publish_counters(MonoTime now) {
   counted_ = now;
   Stats stats;
-  while (const auto renamed = dance_.take_renamed())
-    port_->publish(
-        Where::kCapture, renamed->guest,
-        Profile{mono_now(), this_clock_id(), renamed->what, recording_.is_recording, false});
   stats.time = now;
   stats.clock_id = this_clock_id();
   stats.uptime = now - begin_;

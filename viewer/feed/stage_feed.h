@@ -21,6 +21,7 @@
 #include "viewer/dance_panel/dance_board.h"
 #include "viewer/feed/guest_board.h"
 #include "viewer/instruments/instrument_board.h"
+#include "viewer/practice/step_score_board.h"
 
 namespace dance {
 
@@ -49,6 +50,7 @@ class StageFeed {
   GuestBoard& board() { return board_; }
   InstrumentBoard& instruments() { return instruments_; }
   DanceBoard& dance() { return dance_; }
+  StepScoreBoard& step_scores() { return step_scores_; }
   const std::string& url() const { return bus_->url(); }
   void report_shown(const ShownPose& shown) { shown_.push(shown); }
   // After the last report_shown() of a picture.
@@ -61,6 +63,7 @@ class StageFeed {
   void subscribe(const FeedOptions& options);
   void measure(const FeedOptions& options);
   void hear_house();
+  void count_steps();
   void publish_asked();
   void publish_figures(MonoTime now);
   void publish_counters(MonoTime now);
@@ -75,6 +78,7 @@ class StageFeed {
   GuestBoard board_;
   InstrumentBoard instruments_;
   DanceBoard dance_;
+  StepScoreBoard step_scores_;
   InterestWish hidden_;       // as published last
   RecordingState recording_;  // as published last
   MonoTime room_song_at_;     // when the room's song arrived last

@@ -22,6 +22,8 @@ Examples:
   dance view                                         the stage of this house
   dance view --focus alice --camera front
   dance view --view mirror --focus teacher           left is left, for those who learn
+  dance view --teacher lesson.bvh --teacher-speed 0.5
+                                                     a teacher to dance beside, and your steps
   dance view --view grid                             a class, each couple in a place of its own
   dance view --place bar                             or studio, terrace, plain; key Z
   dance view --headless --out pictures --at 2,5,8    three pictures, no display needed
@@ -46,6 +48,7 @@ struct Wishes {
   bool no_extrapolation = false;
   bool early = false;
   std::vector<std::string> avatars;
+  std::string pupil, teacher_dancer;
   bool no_hud = false;
   bool no_tags = false;
 };
@@ -73,9 +76,26 @@ std::vector<std::string> place_names() {
   return names;
 }
 
+void add_practice_options(CommandLine& line, Wishes& wishes) {
+  TeacherOptions& teacher = wishes.view.teacher;
+  line.add("--teacher", teacher.file,
+           "a recording whose dancer stands beside you as a transparent figure, in this window "
+           "alone: .lcm, .bvh, .glb, .mcap, .csv");
+  line.add("--teacher-dancer", wishes.teacher_dancer, "which dancer of it; the first by name")
+      .guest_name();
+  line.add("--teacher-speed", teacher.choices.speed, "from half to full speed, as 0.75")
+      .range(TeacherChoices::kSlowest, TeacherChoices::kFastest);
+  line.add_flag("--teacher-mirrored", teacher.choices.is_mirrored, "left is right");
+  line.add("--pupil", wishes.pupil,
+           "the guest of this house beside whom the teacher stands and whose steps --panel "
+           "practice counts; the first by name")
+      .guest_name();
+}
+
 void add_options(CommandLine& line, Wishes& wishes) {
   ViewOptions& view = wishes.view;
   add_replay_options(line, wishes);
+  add_practice_options(line, wishes);
   line.add("--bus", view.feed.bus_url, "LCM URL of the house's bus");
   line.add_choice<Shown>(
       "--show", view.feed.shown,
@@ -117,14 +137,15 @@ void add_options(CommandLine& line, Wishes& wishes) {
   line.add_flag("--no-hud", wishes.no_hud, "headless: without the measurements");
   line.add_flag("--no-tags", wishes.no_tags, "without names over heads");
   line.add_flag("--headless", view.headless, "no window: pictures in files, named on stdout");
-  line.add_choice<std::string>(
-      "--panel", view.panel,
-      {{"dance", "dance"},
-       {"instruments", "instruments"},
-       {"style", "style"},
-       {"keys", "keys"},
-       {"timeline", "timeline"}},
-      "open this panel: dance, instruments, style or keys; headless, with a log: timeline");
+  line.add_choice<std::string>("--panel", view.panel,
+                               {{"dance", "dance"},
+                                {"instruments", "instruments"},
+                                {"style", "style"},
+                                {"practice", "practice"},
+                                {"keys", "keys"},
+                                {"timeline", "timeline"}},
+                               "open this panel: dance, instruments, style, practice or keys; "
+                               "headless, with a log: timeline");
   line.add_choice<Language>(
       "--language", view.language,
       {{"en", Language::kEnglish}, {"es", Language::kSpanish}, {"de", Language::kGerman}},
@@ -171,6 +192,10 @@ Result<void> finish(Wishes& wishes) {
   if (auto planned = plan_moments(wishes.view.moments); !planned)
     return tl::make_unexpected(planned.error());
   if (auto shown = check_shown(wishes.view); !shown) return shown;
+  if (!wishes.pupil.empty()) wishes.view.pupil = GuestId::parse(wishes.pupil);
+  if (!wishes.teacher_dancer.empty())
+    wishes.view.teacher.dancer = GuestId::parse(wishes.teacher_dancer).value_or(GuestId());
+  if (auto teacher = check_teacher(wishes.view); !teacher) return teacher;
   if (!wishes.view.export_to.empty()) {
     if (wishes.view.log.empty()) return fail("--export needs a log: dance view LOG --export FILE");
     if (auto kind = export_kind(wishes.view.export_to); !kind)
@@ -183,8 +208,9 @@ Result<void> finish(Wishes& wishes) {
   }
   if (wishes.view.panel == "timeline" && wishes.view.log.empty())
     return fail("--panel timeline needs a log: dance view LOG");
-  if (wishes.view.panel == "dance" && !wishes.view.log.empty())
-    return fail("--panel dance is of a live house; leave out the log");
+  const std::string& panel = wishes.view.panel;
+  if ((panel == "dance" || panel == "practice") && !wishes.view.log.empty())
+    return fail("--panel " + panel + " is of a live house; leave out the log");
   if (wishes.view.log.empty() && (wishes.view.moments.film || !wishes.view.beats.empty()))
     return fail("--film and --beats need a recorded house: dance view LOG");
   if (wishes.compare && wishes.view.view != ViewMode::kOrbit &&

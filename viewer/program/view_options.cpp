@@ -54,6 +54,17 @@ Result<void> check_shown(const ViewOptions& options) {
       "stage too) or --view compare (as it came beside as it was staged)");
 }
 
+Result<void> check_teacher(const ViewOptions& options) {
+  const TeacherOptions& teacher = options.teacher;
+  if (teacher.file.empty() && (teacher.dancer.is_set() || teacher.choices != TeacherChoices()))
+    return fail("--teacher-speed, --teacher-mirrored and --teacher-dancer need --teacher FILE");
+  if (!teacher.file.empty() && !options.log.empty())
+    return fail("--teacher is for a live house; leave out the log");
+  if (!teacher.file.empty() && options.headless)
+    return fail("--teacher is for a window; leave out --headless");
+  return {};
+}
+
 Venue place_to_draw(const ViewOptions& options) {
   const bool is_for_people = !options.headless || !options.export_to.empty();
   return options.place.value_or(is_for_people ? Venue::kStudio : Venue::kPlain);

@@ -3,7 +3,8 @@
 // Units/frames: moments in seconds from the start.
 // Ownership:    plain value.
 // Threads:      none inside.
-// Failure:      plan_moments(), check_shown() and parse_size() refuse invalid values, in one line.
+// Failure:      plan_moments(), check_shown(), check_teacher() and parse_size() refuse invalid
+//               values, in one line.
 #pragma once
 
 #include <optional>
@@ -13,6 +14,7 @@
 #include "core/base/result.h"
 #include "viewer/avatar/avatar_library.h"
 #include "viewer/feed/stage_feed.h"
+#include "viewer/practice/teacher_place.h"
 #include "viewer/scene/place.h"
 #include "viewer/view/camera_rig.h"
 #include "viewer/view/view_mode.h"
@@ -57,7 +59,9 @@ struct ViewOptions {
   bool headless = false;
   std::string session;      // the file that panels save into; "" = none
   bool hosts_room = false;  // this program runs the room's server: closing the window ends the room
-  std::string panel;        // open at the start: dance, instruments, style, keys; "" = none
+  std::string panel;  // open at the start: dance, instruments, style, practice, keys; "" = none
+  std::optional<GuestId> pupil;  // whose steps are counted; not set: this house's first by id
+  TeacherOptions teacher;
   Language language = language_of_user();  // of the texts for dancers
   std::string out = ".";
   MomentWish moments;
@@ -81,6 +85,9 @@ Result<std::vector<double>> plan_moments(const MomentWish& wish, double recorded
 
 // A log is shown as its house showed it: --show is for a live one.
 Result<void> check_shown(const ViewOptions& options);
+
+// A teacher needs a recording, a live house and a window.
+Result<void> check_teacher(const ViewOptions& options);
 
 // The chosen place; by default the studio in windows and exports, and the plain stage in pictures
 // of --headless, which are compared with each other.

@@ -14,10 +14,11 @@
 #include "viewer/chat/chat_panel.h"
 #include "viewer/dance_panel/dance_panel.h"
 #include "viewer/instruments/instrument_panel.h"
+#include "viewer/practice/practice_panel.h"
 #include "viewer/style_panel/style_panel.h"
 #include "viewer/window/help_panel.h"
-#include "viewer/window/window_keys.h"
 #include "viewer/window/own_figures.h"
+#include "viewer/window/window_keys.h"
 #include "voice/control/voice_control.h"
 
 namespace dance {
@@ -60,7 +61,6 @@ MusicDesk::Needs music_needs(const std::string& bus, std::shared_ptr<SessionFile
   return needs;
 }
 
-// Adds the panel of a live house and returns it; a recording has none: nullptr.
 OwnNeeds own_needs(DanceBoard& board, const std::string& bus, std::shared_ptr<SessionFile> file) {
   OwnNeeds own;
   own.rename = [&board](const GuestId& guest, const ShownName& name) { board.rename(guest, name); };
@@ -87,6 +87,7 @@ OwnNeeds own_needs(DanceBoard& board, const std::string& bus, std::shared_ptr<Se
   return own;
 }
 
+// Adds the panel of a live house and returns it; a recording has none: nullptr.
 DancePanel* add_dance_panel(const PanelNeeds& needs, const WindowPanel& at_right,
                             std::shared_ptr<SessionFile> file, PanelStack& panels) {
   DanceBoard* board = needs.source.dance();
@@ -157,6 +158,22 @@ void add_chat_panel(const PanelNeeds& needs, DancePanel* dance, PanelStack& pane
   panels.add(std::make_unique<ChatPanel>(std::move(chat)));
 }
 
+// The steps are of a live house; a recording has none.
+void add_practice_panel(const PanelNeeds& needs, PanelStack& panels) {
+  StepScoreBoard* scores = needs.source.step_scores();
+  if (scores == nullptr) return;
+  PracticeNeeds practice;
+  practice.score = [scores, pupil = needs.options.pupil](MonoTime now) {
+    const auto found = scores->find(pupil, now);
+    return found ? std::optional(found->figures) : std::nullopt;
+  };
+  practice.teacher = needs.teacher;
+  practice.teacher_note = needs.teacher_note;
+  auto panel = std::make_unique<PracticePanel>(std::move(practice));
+  panel->open(needs.options.panel == "practice" || needs.teacher != nullptr);
+  panels.add(std::move(panel));
+}
+
 }  // namespace
 
 Result<void> add_panels(const PanelNeeds& needs, PanelStack& panels) {
@@ -180,6 +197,7 @@ Result<void> add_panels(const PanelNeeds& needs, PanelStack& panels) {
   if (replay != nullptr && (!options.headless || options.panel == "timeline"))
     panels.add(std::make_unique<TimelinePanel>(*replay, needs.exporting));
   DancePanel* const dance = add_dance_panel(needs, at_right, file, panels);
+  add_practice_panel(needs, panels);
   if (!options.headless) add_chat_panel(needs, dance, panels);
   auto help = std::make_unique<HelpPanel>(panels, window_key_groups(replay != nullptr));
   if (options.panel == "keys") help->open();

@@ -5,6 +5,9 @@
 // Failure:   add_panels() names the session file that cannot be read.
 #pragma once
 
+#include <functional>
+#include <string>
+
 #include "viewer/dance_panel/banner_watch.h"
 #include "viewer/dance_panel/dance_wishes.h"
 #include "viewer/feed/picture_source.h"
@@ -22,6 +25,8 @@ struct PanelNeeds {
   TimelinePanel::Exporting exporting;  // of a recording
   DanceWishes& wishes;
   const BannerWatch::Drawing& drawing;
+  TeacherChoices* teacher = nullptr;  // null: there is none
+  std::function<std::string()> teacher_note = {};
 };
 
 // The first hears keys first; the last is drawn in front.

@@ -53,6 +53,9 @@ Result<std::unique_ptr<WindowRun>> WindowRun::create(const ViewOptions& options,
                                                      PictureSource& source,
                                                      std::unique_ptr<ViewWindow> window) {
   std::unique_ptr<WindowRun> run(new WindowRun(options, source));
+  if (!options.teacher.file.empty()) {  // a bad file is refused before a window opens
+    DANCE_TRY(run->teacher_, RecordedTeacher::open(options.teacher));
+  }
   if (window) {
     run->window_ = std::move(window);
     run->window_->set_events(run->input_);
@@ -66,9 +69,11 @@ Result<std::unique_ptr<WindowRun>> WindowRun::create(const ViewOptions& options,
     talk::info("{}", run->painter_->overlay().font_note());
   if (options.quality == QualityWish::kAuto && run->painter_->renderer().quality() == Quality::kLow)
     talk::info("no graphics card here: drawing plainly; --quality high draws all the same");
-  if (auto added = add_panels({options, source, run->records_, run->export_.for_timeline(),
-                               run->state_.dance, run->drawing_},
-                              run->panels_);
+  if (auto added = add_panels(
+          {options, source, run->records_, run->export_.for_timeline(), run->state_.dance,
+           run->drawing_, run->teacher_ ? &run->teacher_choices_ : nullptr,
+           [raw = run.get()] { return raw->teacher_->note(); }},
+          run->panels_);
       !added)
     return tl::make_unexpected(added.error());
   run->apply_display_mode();
@@ -227,6 +232,7 @@ void WindowRun::take_poses(MonoTime now) {
   const MonoTime house_now = house_time(now);
   roster_.update(house_now, scene_);
   drawing_.pictures_hz = static_cast<float>(rate_.hz());
+  let_teacher_join();
   scene_.notes.clear();  // the avatars' come first
   avatars_.dress(scene_);
   records_.take(source_.instruments());
@@ -237,6 +243,13 @@ void WindowRun::take_poses(MonoTime now) {
   const bool is_live = source_.replay() == nullptr;
   if (is_live && state_.extrapolates && director_.mode() != ViewMode::kCompare)
     predictor_.predict(path_.photon_time(now), scene_);
+}
+
+void WindowRun::let_teacher_join() {
+  StepScoreBoard* scores = source_.step_scores();
+  if (!teacher_ || scores == nullptr) return;
+  const auto pupil = scores->find(options_.pupil, scene_.time);
+  teacher_->join(pupil ? std::optional(pupil->guest) : std::nullopt, teacher_choices_, scene_);
 }
 
 void WindowRun::hide_guests() {

@@ -19,6 +19,7 @@
 #include "viewer/feed/photon_predictor.h"
 #include "viewer/feed/picture_source.h"
 #include "viewer/instruments/instrument_records.h"
+#include "viewer/replay/recorded_teacher.h"
 #include "viewer/stage/stage_painter.h"
 #include "viewer/view/view_director.h"
 #include "viewer/window/view_window.h"
@@ -89,6 +90,7 @@ class WindowRun {
   void ask_before_closing();
   Result<void> turn_to_next_picture();
   void hide_guests();
+  void let_teacher_join();
   void choose_guest();
   void write_notes(MonoTime now);
   Result<void> draw(ViewWindow::Size size, Duration since_last);
@@ -105,6 +107,8 @@ class WindowRun {
   AvatarLibrary avatars_{
       avatars_of(AvatarStore::of_user(), data_folder() + "/avatars", options_.avatars)};
   InstrumentRecords records_;
+  std::unique_ptr<RecordedTeacher> teacher_;  // null: none
+  TeacherChoices teacher_choices_{options_.teacher.choices};
   BannerWatch::Drawing drawing_;
   bool draws_plainly_ = false;  // asked for, as drawing was slow
   PanelStack panels_;

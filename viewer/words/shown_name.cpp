@@ -68,6 +68,7 @@ std::string_view shown_name(const ShownNames& names, const GuestId& guest, const
   const std::string_view id = guest.view();
   if (id == "dancer") return texts[Text::kNameDancer];
   if (id == "partner") return texts[Text::kNamePartner];
+  if (id == "teacher") return texts[Text::kNameTeacher];
   return id;
 }
 

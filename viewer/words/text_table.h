@@ -17,6 +17,7 @@
 #include "viewer/words/key_texts.h"
 #include "viewer/words/lobby_texts.h"
 #include "viewer/words/own_texts.h"
+#include "viewer/words/practice_texts.h"
 #include "viewer/words/shelf_texts.h"
 
 // clang-format off
@@ -34,6 +35,7 @@
   DANCE_INVITE_TEXTS(ROW) \
   DANCE_KEY_TEXTS(ROW) \
   DANCE_LOBBY_TEXTS(ROW) \
-  DANCE_SHELF_TEXTS(ROW)
   DANCE_OWN_TEXTS(ROW) \
+  DANCE_PRACTICE_TEXTS(ROW) \
+  DANCE_SHELF_TEXTS(ROW)
 // clang-format on
