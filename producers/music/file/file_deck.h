@@ -23,7 +23,7 @@ namespace dance {
 class FileDeck {
  public:
   struct Options {
-    SongFile file;
+    MusicFile file;
     TempoHint hint;
     bool is_alone = false;  // in no room: the song may be stopped, slowed and changed
     // The sound of a file, from now on.

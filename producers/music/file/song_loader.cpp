@@ -8,14 +8,14 @@
 
 namespace dance {
 
-std::string beats_list_of(const SongFile& file) {
+std::string beats_list_of(const MusicFile& file) {
   if (!file.beats.empty()) return file.beats;
   std::string beside = beats_path_beside(file.path);
   struct stat status {};
   return ::stat(beside.c_str(), &status) == 0 ? beside : std::string();
 }
 
-Result<LoadedSong> load_song(const SongFile& file, const TempoHint& hint,
+Result<LoadedSong> load_song(const MusicFile& file, const TempoHint& hint,
                              const std::atomic<bool>& is_cancelled) {
   DANCE_TRY(AudioFile audio, AudioFile::open(file.path));
   const std::string list = beats_list_of(file);
@@ -33,7 +33,7 @@ Result<LoadedSong> load_song(const SongFile& file, const TempoHint& hint,
   return LoadedSong{Song(std::move(grid), audio.length_s(), false)};
 }
 
-SongLoader::SongLoader(const SongFile& file, const TempoHint& hint)
+SongLoader::SongLoader(const MusicFile& file, const TempoHint& hint)
     : thread_([this, file, hint] {
         loaded_.emplace(load_song(file, hint, is_cancelled_));
         is_done_.store(true, std::memory_order_release);

@@ -17,7 +17,7 @@
 
 namespace dance {
 
-struct SongFile {
+struct MusicFile {
   std::string path;
   std::string beats;  // the list; "" = the one beside it, or the tracker finds them
 };
@@ -29,14 +29,14 @@ struct LoadedSong {
 };
 
 // The list of beats to be read; "" = they are to be tracked.
-std::string beats_list_of(const SongFile& file);
+std::string beats_list_of(const MusicFile& file);
 // `is_cancelled` ends tracking early, with an Error.
-Result<LoadedSong> load_song(const SongFile& file, const TempoHint& hint,
+Result<LoadedSong> load_song(const MusicFile& file, const TempoHint& hint,
                              const std::atomic<bool>& is_cancelled);
 
 class SongLoader {
  public:
-  SongLoader(const SongFile& file, const TempoHint& hint);
+  SongLoader(const MusicFile& file, const TempoHint& hint);
   ~SongLoader();
   SongLoader(const SongLoader&) = delete;
   SongLoader& operator=(const SongLoader&) = delete;
