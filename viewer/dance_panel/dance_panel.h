@@ -61,6 +61,7 @@ class DancePanel : public WindowPanel {
   void choose(const GuestId& guest) { chosen_ = guest; }
   DanceRecords& records() { return records_; }
   const DanceRecording& recording() const { return recording_; }
+  const OwnChoices& own() const { return own_; }
 
   Text title() const override { return Text::kDancePanel; }
   std::span<const KeyHelp> keys() const override;

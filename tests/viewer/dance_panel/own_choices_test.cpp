@@ -1,6 +1,8 @@
 // What a person changes about a guest of this house in the dance panel, with mouse and keys.
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "tests/viewer/dance_panel/dance_stage.h"
 
@@ -49,8 +51,13 @@ class OwnChoicesTest : public DanceStage {
   bool open_line() {
     return find_with_keys([&] { return panels_.on_character(U'A'); });
   }
+  // Of choices while one is under way the last counts: each is waited for.
   bool has_asked(const std::string& what) {
     turn();
+    for (int i = 0; panel_->own().changes_figure() && i < 30'000; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      turn();
+    }
     std::ifstream file(folder_.path("asked"));
     for (std::string line; std::getline(file, line);)
       if (line.starts_with("choose alice " + what)) return true;

@@ -40,6 +40,7 @@ class OwnChoices {
 
   // Once a picture.
   void work() { figures_.work(); }
+  bool changes_figure() const { return figures_.is_busy(); }
   // Nothing is typed or listed any more.
   void close() { open_ = Open::kNone; }
   // While a line is typed all keys are its own.
