@@ -54,17 +54,17 @@ Pose pose_at(SalsaDancer& dancer, const Lesson& lesson, double s) {
 }
 
 // What is shown over the last 30 s of a lesson.
-struct Shown {
+struct LessonScore {
   double met = 0.0;  // mean share
   double late_ms = 0.0;
   int fewest_counted = StepScore::kBeats;
 };
-Shown shown_in(const Lesson& lesson) {
+LessonScore shown_in(const Lesson& lesson) {
   SalsaDancer dancer = dancer_of(lesson);
   StepScore score;
   score.set_body(dancer.skeleton());
   BeatClock music;
-  Shown shown;
+  LessonScore shown;
   int asked = 0;
   double next_beat_s = 0.0;
   for (int i = 0; i < static_cast<int>(50.0 * lesson.hz); ++i) {
@@ -87,7 +87,7 @@ TEST(StepScore, CountsAlmostAllBeatsOfADanceInTimeAndNoRests) {
   for (const double bpm : {100.0, 120.0, 184.0})
     for (const double hz : {30.0, 60.0})
       for (const SalsaRole role : {SalsaRole::kLead, SalsaRole::kFollow}) {
-        const Shown shown = shown_in({bpm, bpm, 0.0, hz, role});
+        const LessonScore shown = shown_in({bpm, bpm, 0.0, hz, role});
         EXPECT_GE(shown.met, 0.85) << bpm << " BPM, " << hz << " Hz";
         EXPECT_EQ(shown.fewest_counted, StepScore::kBeats) << "rests must not end the count";
       }
@@ -109,7 +109,7 @@ TEST(StepScore, StepsBeyondTheToleranceAreNotMet) {
 
 TEST(StepScore, AnotherTempoMeetsHalfTheBeatsByLuckAtMost) {
   for (const double bpm : {109.0, 131.0}) {
-    const Shown shown = shown_in({bpm, 120.0});
+    const LessonScore shown = shown_in({bpm, 120.0});
     EXPECT_LE(shown.met, 0.6) << bpm;
     EXPECT_GE(shown.met, 0.2) << bpm;
   }
