@@ -1,4 +1,4 @@
-// TeacherPlace: where a recorded dancer stands beside the pupil, and what it looks like in a mirror.
+// TeacherPlace: where a recorded dancer stands beside the pupil, and how a mirror shows it.
 //
 // Units/frames: W, metres. The place is that of the first recorded pose that was shown: there the
 //               teacher faces as the pupil did when the place was chosen. It then stays in the

@@ -1,4 +1,4 @@
-// RecordedTeacher: a dancer of a recording as a transparent figure on a live stage, to dance beside:
+// RecordedTeacher: a dancer of a recording as a transparent figure on a live stage to dance beside:
 // looped, at half to full speed, mirrored on request. It is in this window's scene alone: nothing
 // of it goes to the bus or the room.
 //
