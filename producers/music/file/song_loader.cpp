@@ -35,7 +35,7 @@ Result<LoadedSong> load_song(const MusicFile& file, const TempoHint& hint,
 
 SongLoader::SongLoader(const MusicFile& file, const TempoHint& hint)
     : thread_([this, file, hint] {
-        loaded_.emplace(load_song(file, hint, is_cancelled_));
+        loaded_ = std::make_unique<Result<LoadedSong>>(load_song(file, hint, is_cancelled_));
         is_done_.store(true, std::memory_order_release);
       }) {}
 

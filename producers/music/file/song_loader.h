@@ -7,7 +7,7 @@
 #pragma once
 
 #include <atomic>
-#include <optional>
+#include <memory>
 #include <string>
 #include <thread>
 
@@ -47,7 +47,7 @@ class SongLoader {
 
  private:
   std::atomic<bool> is_cancelled_{false}, is_done_{false};
-  std::optional<Result<LoadedSong>> loaded_;
+  std::unique_ptr<Result<LoadedSong>> loaded_;  // not set: not done
   std::thread thread_;
 };
 
