@@ -146,16 +146,18 @@ void draw_chosen(LobbyModel& model, LobbyKit& kit, const RecordedDance& dance) {
   const bool can_export = dance.has_motion && model.shelf.exported_name.empty();
   ImGui::BeginDisabled(!dance.has_motion);
   if (kit.button(t[Text::kLobbyWatch], ButtonLook::kAccent, 120.0f)) model.ask(LobbyWish::kWatch);
-  kit.beside(t[Text::kLobbyDanceBeside]);
-  if (kit.button(t[Text::kLobbyDanceBeside])) {
-    model.settings.window.teacher = dance.path;
-    model.ask(LobbyWish::kPractise);
-  }
   ImGui::EndDisabled();
   ImGui::BeginDisabled(!can_export);
   if (model.shelf.has_video)
     request_button(model, kit, Text::kLobbyMakeVideo, LobbyWish::kMakeVideo);
   question_button(model, kit, Text::kLobbyExport, Question::kExport);
+  ImGui::EndDisabled();
+  ImGui::BeginDisabled(!dance.has_motion);
+  kit.beside(t[Text::kLobbyDanceBeside]);
+  if (kit.button(t[Text::kLobbyDanceBeside])) {
+    model.settings.window.teacher = dance.path;
+    model.ask(LobbyWish::kPractise);
+  }
   ImGui::EndDisabled();
   question_button(model, kit, Text::kLobbyRename, Question::kRename);
   question_button(model, kit, Text::kLobbyDelete, Question::kDelete);
