@@ -96,7 +96,7 @@ TEST_F(VoiceKeysTest, SayForAWhileWhatIsMissing) {
   add("alice", false);
   wishes_.is_talk_held = true;
   work();
-  EXPECT_NE(keys_.words(now_).find("without the key"), std::string::npos);
+  EXPECT_NE(keys_.words(now_).find("without pressing the key"), std::string::npos);
   scene_.voices[0].is_muted = true;
   work();
   EXPECT_NE(keys_.words(now_).find("muted"), std::string::npos);

@@ -132,7 +132,7 @@ TEST(Banner, HasWordsACureAndAButtonWhereOnePressMendsIt) {
   EXPECT_EQ(banner_of(BannerKind::kRefused, facts, kBannerTexts).what,
             "The server does not let dora in.");
   EXPECT_EQ(banner_of(BannerKind::kNoSound, facts, kBannerTexts).what,
-            "Your microphone cannot be reached: this computer's sound does not answer.");
+            "Your microphone cannot be reached: this computer's sound system does not answer.");
   EXPECT_EQ(banner_of(BannerKind::kSpeaksMuted, facts, kBannerTexts).action, BannerAction::kUnmute);
 }
 

@@ -61,7 +61,7 @@ TEST(RemovalDesk, SaysSoWhereNoLinkHearsIt) {
   Desk desk;
   desk.desk.remove(guest_called("bob"), desk.now);
   desk.run(Duration::s(3));
-  EXPECT_EQ(desk.words(), "The link did not accept the request.");
+  EXPECT_EQ(desk.words(), "Your connection did not accept the request.");
   EXPECT_LE(desk.asks, 11);
 }
 
