@@ -16,7 +16,7 @@ constexpr int kRow_x = 700, kRow_y = 120;
 constexpr int kWatch_x = 335;  // left of the word
 constexpr int kBelowRow_y = 155, kMyDancesToMiddle_px = 22;
 constexpr int kFree_x = 700, kFree_y = 600;
-constexpr int kExport_x = 648, kGlb_x = 439, kGlbBelow_px = 79;
+constexpr int kExport_x = 648, kGlb_x = 439, kGlbBelow_px = 133;
 
 class MyDances : public testing::Test {
  protected:
