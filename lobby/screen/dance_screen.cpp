@@ -126,7 +126,6 @@ void draw_couple(const LobbyModel& model, LobbyKit& kit) {
 
 void draw_choices(LobbyModel& model, LobbyKit& kit) {
   const Texts& t = model.texts;
-  kit.gap(2.0f);
   kit.begin_card(nullptr);
   kit.note(t[Text::kLobbyDanceNow]);
   draw_partner(model, kit);
@@ -232,9 +231,11 @@ void draw_dance_screen(LobbyModel& model, LobbyKit& kit) {
   kit.title(model.texts[Text::kLobbyDanceTitle]);
   kit.gap(2.0f);
   draw_now(model, kit);
-  draw_choices(model, kit);
+  kit.gap(2.0f);
+  // A friend who was invited sees the field without scrolling, also in a small window.
   draw_invitation(model, kit);
   draw_rooms(model, kit);
+  draw_choices(model, kit);
   draw_other_room(model, kit);
   draw_commands(model, kit,
                 {{Text::kLobbyDanceNow, LobbyWish::kAlone},

@@ -19,7 +19,7 @@ namespace {
 constexpr int kScreenWidth_px = 1280, kScreenHeight_px = 720;
 // Where things are in a window of that size.
 constexpr int kAlone_x = 500, kAlone_y = 160;
-constexpr int kRoom_x = 1050, kRoomHalf_px = 25;  // right of all but the rows
+constexpr int kRoom_x = 1028, kRoomHalf_px = 25;  // only the rows of rooms reach it
 constexpr int kBannerButton_x = 1080, kBannerButton_y = 52;
 constexpr int kHost_x = 100, kHost_y = 216;
 
