@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/base/random.h"
+#include "formats/body/random_look.h"
 #include "lobby/screen/lobby_screens.h"
 #include "lobby/settings/chosen_look.h"
 
@@ -121,15 +121,10 @@ int draw_swatches(LobbyModel& model, LobbyKit& kit, Text label,
 }
 
 void choose_any_look(LobbySettings& settings) {
-  Random random(static_cast<std::uint64_t>(ImGui::GetFrameCount()));
-  GuestLook look = chosen_look(settings);
-  look.legwear = static_cast<Legwear>(random.below(3));
-  look.sleeves = static_cast<Sleeves>(random.below(3));
-  look.hair_style = static_cast<Hair>(random.below(4));
-  look.skin = linear_from_srgb(kSkinColours[random.below(kSkinColours.size())]);
-  look.hair = linear_from_srgb(kHairColours[random.below(kHairColours.size())]);
-  choose_look(look, settings);
-  choose_top(kTopColours[random.below(kTopColours.size())], settings);
+  const auto seed = static_cast<std::uint64_t>(ImGui::GetFrameCount());
+  const RandomLook random = random_look(chosen_look(settings), seed);
+  choose_look(random.look, settings);
+  choose_top(random.top, settings);
 }
 
 void draw_look(LobbyModel& model, LobbyKit& kit) {

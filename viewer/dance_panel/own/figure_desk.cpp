@@ -7,9 +7,9 @@
 
 #include "core/base/plain_number.h"
 #include "core/base/printable.h"
-#include "core/base/random.h"
 #include "core/program/talk.h"
 #include "formats/body/look_names.h"
+#include "formats/body/random_look.h"
 
 namespace dance {
 namespace {
@@ -41,16 +41,10 @@ void FigureDesk::choose(const GuestId& guest, OwnFigure figure) {
 }
 
 void FigureDesk::choose_any_look(const GuestId& guest, std::uint64_t seed) {
-  Random random(seed);
-  GuestLook look = look_of(guest);
-  look.legwear = static_cast<Legwear>(random.below(3));
-  look.sleeves = static_cast<Sleeves>(random.below(3));
-  look.hair_style = static_cast<Hair>(random.below(4));
-  look.skin = linear_from_srgb(kSkinColours[random.below(kSkinColours.size())]);
-  look.hair = linear_from_srgb(kHairColours[random.below(kHairColours.size())]);
+  const RandomLook random = random_look(look_of(guest), seed);
   OwnFigure figure;
-  figure.look = name_of_look(look);
-  figure.colour = fmt::format("#{:06x}", kTopColours[random.below(kTopColours.size())]);
+  figure.look = name_of_look(random.look);
+  figure.colour = fmt::format("#{:06x}", random.top);
   choose(guest, std::move(figure));
 }
 
