@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "core/base/printable.h"
-#include "viewer/dance_panel/dance_ink.h"
+#include "viewer/dance_panel/panel_style.h"
 
 namespace dance {
 namespace {
@@ -31,9 +31,9 @@ void push_style(float em) {
   ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, 0.3f * em);
   ImGui::PushStyleVar(ImGuiStyleVar_ScrollbarSize, 0.6f * em);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
-  ImGui::PushStyleColor(ImGuiCol_Text, dance_ink::kText);
+  ImGui::PushStyleColor(ImGuiCol_Text, panel_style::kText);
   ImGui::PushStyleColor(ImGuiCol_FrameBg, IM_COL32(52, 60, 78, 255));
-  ImGui::PushStyleColor(ImGuiCol_SliderGrab, dance_ink::kAccent);
+  ImGui::PushStyleColor(ImGuiCol_SliderGrab, panel_style::kAccent);
   ImGui::PushStyleColor(ImGuiCol_Separator, IM_COL32(255, 255, 255, 40));
   ImGui::PushStyleColor(ImGuiCol_ScrollbarBg, IM_COL32(0, 0, 0, 0));
 }
@@ -49,7 +49,7 @@ float loudness(int level_dbfs) {
 
 void section(const char* words) {
   ImGui::Separator();
-  dance_ink::text(dance_ink::kQuiet, words);
+  panel_style::text(panel_style::kQuiet, words);
 }
 
 }  // namespace
@@ -136,13 +136,13 @@ void DancePanel::draw(const PanelFrame& frame) {
 
 void DancePanel::draw_column(const PanelFrame& frame) {
   const float em = frame.small_font->FontSize, margin = 0.7f * em;
-  const float width = dance_ink::column_width(em, frame.width_px);
+  const float width = panel_style::column_width(em, frame.width_px);
   const float most = frame.height_px - 2.0f * margin;
   const float x = is_at_left() ? margin : frame.width_px - margin - width;
   ImGui::SetNextWindowPos({std::round(x), margin});
   ImGui::SetNextWindowSize({width, last_height_px_ > 0.0f ? last_height_px_ : most});
-  if (ImGui::Begin("dance", nullptr, dance_ink::kWindow)) {
-    dance_ink::Paper paper(width);
+  if (ImGui::Begin("dance", nullptr, panel_style::kWindow)) {
+    panel_style::PanelBackground background(width);
     ImGui::PushFont(frame.large_font);
     ImGui::TextUnformatted(texts_[Text::kDancePanel]);
     ImGui::PopFont();
@@ -161,7 +161,7 @@ void DancePanel::draw_column(const PanelFrame& frame) {
     draw_footer(frame);
     footer_px_ = ImGui::GetCursorPosY() - begin + 0.5f * em;
     last_height_px_ = std::min(most, ImGui::GetCursorPosY() + 0.4f * em);
-    paper.end(last_height_px_, dance_ink::kPaper, 0.5f * em);
+    background.end(last_height_px_, panel_style::kBackground, 0.5f * em);
   }
   ImGui::End();
 }
@@ -176,7 +176,7 @@ void DancePanel::draw_lamps(const SceneMusic& music) const {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   for (int i = 0; i < lamps; ++i) {
     const ImVec2 centre{low.x + (0.6f + 1.35f * static_cast<float>(i)) * em, low.y + 0.65f * em};
-    list.AddCircleFilled(centre, 0.42f * em, dance_ink::kTrough, 24);
+    list.AddCircleFilled(centre, 0.42f * em, panel_style::kTrough, 24);
     if (i != lit) continue;
     const int alpha = static_cast<int>(255.0f * (1.0f - 0.6f * since));
     list.AddCircleFilled(centre, 0.5f * em,
@@ -193,7 +193,8 @@ void DancePanel::draw_music(const PanelFrame& frame) {
   const bool has_own = has_own_song();
   const bool finds = finds_beat(frame);
   if (!music && !has_own) {
-    dance_ink::text(dance_ink::kText, texts_[finds ? Text::kDanceFindsBeat : Text::kDanceNoMusic]);
+    panel_style::text(panel_style::kText,
+                      texts_[finds ? Text::kDanceFindsBeat : Text::kDanceNoMusic]);
     draw_band();
     return;
   }
@@ -201,14 +202,14 @@ void DancePanel::draw_music(const PanelFrame& frame) {
   const bool has_title = records_.music() && !records_.music()->title.view().empty();
   const std::string title = has_title ? printable(records_.music()->title.view())
                                       : band_title().value_or(texts_[Text::kDanceUntitled]);
-  ImGui::TextUnformatted(dance_ink::fitted(title, width).c_str());
+  ImGui::TextUnformatted(panel_style::fitted(title, width).c_str());
   if (music) {
     draw_lamps(*music);
     const std::string bpm = std::to_string(std::lround(60.0 * music->beats_per_second));
     ImGui::SameLine();
-    dance_ink::text(dance_ink::kQuiet, texts_.say(Text::kDanceTempo, {bpm}).c_str());
+    panel_style::text(panel_style::kQuiet, texts_.say(Text::kDanceTempo, {bpm}).c_str());
   } else if (finds) {
-    dance_ink::text(dance_ink::kQuiet, texts_[Text::kDanceFindsBeat]);
+    panel_style::text(panel_style::kQuiet, texts_[Text::kDanceFindsBeat]);
   }
   if (music_.is_there()) draw_music_volume(frame.scene.time);
   draw_band();
@@ -239,22 +240,22 @@ void DancePanel::draw_music_volume(MonoTime now) {
 void DancePanel::draw_own(const PanelFrame& frame) {
   section(texts_[Text::kDanceYou]);
   if (frame.scene.voices.empty()) {
-    dance_ink::text(dance_ink::kQuiet, texts_[Text::kDanceNoVoice]);
+    panel_style::text(panel_style::kQuiet, texts_[Text::kDanceNoVoice]);
     return draw_voice_switch(GuestId(), frame.scene.time);
   }
   const float em = ImGui::GetFontSize();
   const SceneVoice& voice = frame.scene.voices.front();
   if (voice.has_no_sound()) {
-    dance_ink::text(dance_ink::kFair, texts_[Text::kBannerNoSound]);
+    panel_style::text(panel_style::kFair, texts_[Text::kBannerNoSound]);
     return draw_voice_switch(voice.guest, frame.scene.time);
   }
   const bool is_off = voice.is_muted || voice.is_deafened;
   const auto level = records_.level_of(voice.guest, frame.scene.time);
   const ImVec2 low = ImGui::GetCursorScreenPos();
-  dance_ink::draw_level(*ImGui::GetWindowDrawList(), {low.x, low.y + 0.3f * em},
-                        {ImGui::GetContentRegionAvail().x, 0.4f * em},
-                        level ? loudness(level->level_dbfs) : 0.0f,
-                        is_off || !voice.is_heard ? dance_ink::kQuiet : dance_ink::kGood);
+  panel_style::draw_level(*ImGui::GetWindowDrawList(), {low.x, low.y + 0.3f * em},
+                          {ImGui::GetContentRegionAvail().x, 0.4f * em},
+                          level ? loudness(level->level_dbfs) : 0.0f,
+                          is_off || !voice.is_heard ? panel_style::kQuiet : panel_style::kGood);
   ImGui::Dummy({1.0f, 0.8f * em});
   const Text microphone = is_off ? Text::kDanceMicrophoneOff : Text::kDanceMicrophoneOn;
   if (controls_.button("microphone", texts_[microphone],
@@ -268,8 +269,8 @@ void DancePanel::draw_own(const PanelFrame& frame) {
     ++needs_.wishes.deafen_presses;
   draw_voice_switch(voice.guest, frame.scene.time);
   if (!is_off && voice.is_push_to_talk)
-    dance_ink::text(voice.is_heard ? dance_ink::kGood : dance_ink::kQuiet,
-                    texts_[voice.is_heard ? Text::kDanceTalking : Text::kDanceTalkHint]);
+    panel_style::text(voice.is_heard ? panel_style::kGood : panel_style::kQuiet,
+                      texts_[voice.is_heard ? Text::kDanceTalking : Text::kDanceTalkHint]);
 }
 
 // `speaker`: whose voice runs here; not set: nobody's.
@@ -286,20 +287,21 @@ void DancePanel::draw_footer(const PanelFrame& frame) {
   const MonoTime now = frame.scene.time;
   ImGui::Separator();
   if (const std::string words = removal_.words(names_, texts_, now); !words.empty())
-    dance_ink::text(dance_ink::kText, words.c_str());
+    panel_style::text(panel_style::kText, words.c_str());
   if (!music_.trouble().empty())
-    dance_ink::text(dance_ink::kFair, printable(music_.trouble()).c_str());
-  if (!voice_trouble_.empty()) dance_ink::text(dance_ink::kFair, printable(voice_trouble_).c_str());
+    panel_style::text(panel_style::kFair, printable(music_.trouble()).c_str());
+  if (!voice_trouble_.empty())
+    panel_style::text(panel_style::kFair, printable(voice_trouble_).c_str());
   const auto state = recording_.state();
   if (state == DanceRecording::State::kRunning)
-    dance_ink::text(dance_ink::kQuiet,
-                    texts_.say(Text::kDanceRecordTo, {printable(recording_.file())}).c_str());
+    panel_style::text(panel_style::kQuiet,
+                      texts_.say(Text::kDanceRecordTo, {printable(recording_.file())}).c_str());
   else if (state == DanceRecording::State::kIdle && recording_.is_saved())
-    dance_ink::text(dance_ink::kQuiet,
-                    texts_.say(Text::kDanceRecorded, {printable(recording_.file())}).c_str());
+    panel_style::text(panel_style::kQuiet,
+                      texts_.say(Text::kDanceRecorded, {printable(recording_.file())}).c_str());
   if (state == DanceRecording::State::kRunning) {
     const std::string label =
-        texts_.say(Text::kDanceRecordStop, {dance_ink::clock_text(recording_.elapsed(now))});
+        texts_.say(Text::kDanceRecordStop, {panel_style::clock_text(recording_.elapsed(now))});
     if (controls_.button("record", label.c_str(), PanelControls::Look::kWarning))
       recording_.stop(now);
   } else if (state == DanceRecording::State::kStopping) {

@@ -2,8 +2,8 @@
 #include <tuple>
 
 #include "core/base/music/music_speed.h"
-#include "viewer/dance_panel/dance_ink.h"
 #include "viewer/dance_panel/dance_panel.h"
+#include "viewer/dance_panel/panel_style.h"
 
 namespace dance {
 namespace {
@@ -66,7 +66,7 @@ void DancePanel::draw_band() {
     if (row.button("band-lock", texts_[lock]))
       music_.control_band(song->locked ? BandRequest::kUnlock : BandRequest::kLock, song->style);
   } else if (song->locked) {
-    dance_ink::text(dance_ink::kQuiet, texts_[Text::kBandLocked]);
+    panel_style::text(panel_style::kQuiet, texts_[Text::kBandLocked]);
   }
 }
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "formats/body/guest_look.h"
-#include "viewer/dance_panel/dance_ink.h"
 #include "viewer/dance_panel/dance_panel.h"
+#include "viewer/dance_panel/panel_style.h"
 #include "viewer/words/shown_name.h"
 
 namespace dance {
@@ -62,14 +62,14 @@ float DancePanel::guest_height(const DanceGuest& guest) const {
   float height = kRow_em * em + gap;
   const std::string words = quality_words(guest.quality.shown(), texts_);
   if (!words.empty())
-    height +=
-        gap + dance_ink::wrapped_height(words, ImGui::GetContentRegionAvail().x - kIndent_em * em);
+    height += gap + panel_style::wrapped_height(words,
+                                                ImGui::GetContentRegionAvail().x - kIndent_em * em);
   if (guest.id != chosen_) return height;
   const float line = ImGui::GetFrameHeight() + kChoiceGap_em * em;
   const float width = ImGui::GetContentRegionAvail().x - kIndent_em * em;
   if (guest.id == to_be_removed_)
     return height + line + kChoiceGap_em * em +
-           dance_ink::wrapped_height(removal_question(guest), width);
+           panel_style::wrapped_height(removal_question(guest), width);
   const bool shows_roles = has_role_ && role_guest_ == guest.id;
   if (!guest.is_remote) return height + (shows_roles ? 4.0f : 2.0f) * line + own_.height_px();
   // As flow() puts the buttons.
@@ -89,7 +89,7 @@ float DancePanel::guests_height() const {
 
 void DancePanel::draw_guests(const PanelFrame& frame, float height) {
   if (records_.guests().empty()) {
-    dance_ink::text(dance_ink::kQuiet, texts_[Text::kDanceNobody]);
+    panel_style::text(panel_style::kQuiet, texts_[Text::kDanceNobody]);
     return;
   }
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing,
@@ -116,7 +116,7 @@ void DancePanel::draw_guest(const PanelFrame& frame, const DanceGuest& guest) {
   }
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float middle = low.y + 0.5f * kRow_em * em, text_y = middle - 0.5f * em;
-  dance_ink::draw_quality(list, quality.level, {low.x + 0.55f * em, middle}, 0.34f * em);
+  panel_style::draw_quality(list, quality.level, {low.x + 0.55f * em, middle}, 0.34f * em);
   list.AddCircleFilled({low.x + 1.75f * em, middle}, 0.42f * em, colour_of(guest.id), 24);
   // From the right: the voice's level, or what was chosen.
   float right = low.x + width - 0.2f * em;
@@ -124,29 +124,29 @@ void DancePanel::draw_guest(const PanelFrame& frame, const DanceGuest& guest) {
   const char* mark = what ? texts_[*what] : nullptr;
   if (mark != nullptr) {
     right -= ImGui::CalcTextSize(mark).x;
-    list.AddText({std::round(right), std::round(text_y)}, dance_ink::kQuiet, mark);
+    list.AddText({std::round(right), std::round(text_y)}, panel_style::kQuiet, mark);
     right -= 0.5f * em;
   }
   if (!choice.is_voice_muted && guest.voice > 0.0f) {
     right -= kLevelWidth_em * em;
-    dance_ink::draw_level(list, {right, middle - 0.16f * em}, {kLevelWidth_em * em, 0.32f * em},
-                          guest.voice, dance_ink::kGood);
+    panel_style::draw_level(list, {right, middle - 0.16f * em}, {kLevelWidth_em * em, 0.32f * em},
+                            guest.voice, panel_style::kGood);
     right -= 0.5f * em;
   }
   const auto& recorders = frame.scene.recorders;
   if (std::find(recorders.begin(), recorders.end(), guest.id) != recorders.end()) {
     right -= 0.8f * em;
-    list.AddCircleFilled({right + 0.4f * em, middle}, 0.36f * em, dance_ink::kBad, 20);
+    list.AddCircleFilled({right + 0.4f * em, middle}, 0.36f * em, panel_style::kBad, 20);
     right -= 0.4f * em;
   }
   const float begin = low.x + kIndent_em * em;
   list.AddText({std::round(begin), std::round(text_y)},
-               choice.is_hidden ? dance_ink::kQuiet : dance_ink::kText,
-               dance_ink::fitted(name, right - begin).c_str());
+               choice.is_hidden ? panel_style::kQuiet : panel_style::kText,
+               panel_style::fitted(name, right - begin).c_str());
   const std::string words = quality_words(quality, texts_);
   if (!words.empty()) {
     ImGui::Indent(kIndent_em * em);
-    dance_ink::text(dance_ink::of(quality.level), words.c_str());
+    panel_style::text(panel_style::colour_of(quality.level), words.c_str());
     ImGui::Unindent(kIndent_em * em);
   }
   if (chosen_ == guest.id) {
@@ -175,7 +175,7 @@ void DancePanel::draw_choices(const PanelFrame& frame, const DanceGuest& guest) 
     }
     controls_.flow(controls_.width_of(texts_[Text::kDanceHide]));
   } else {
-    dance_ink::text(dance_ink::kQuiet, texts_[Text::kDanceYours]);
+    panel_style::text(panel_style::kQuiet, texts_[Text::kDanceYours]);
   }
   if (controls_.button("hide", texts_[choice.is_hidden ? Text::kDanceShow : Text::kDanceHide])) {
     choice.is_hidden = !choice.is_hidden;
@@ -211,7 +211,7 @@ std::string_view DancePanel::chosen_name(const GuestId& guest) const {
 }
 
 void DancePanel::draw_removal(const DanceGuest& guest, MonoTime now) {
-  dance_ink::text(dance_ink::kText, removal_question(guest).c_str());
+  panel_style::text(panel_style::kText, removal_question(guest).c_str());
   if (controls_.button("sure", texts_[Text::kDanceRemove], PanelControls::Look::kWarning)) {
     removal_.remove(guest.id, now);
     to_be_removed_ = chosen_ = GuestId();

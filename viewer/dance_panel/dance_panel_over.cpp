@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "viewer/dance_panel/dance_ink.h"
 #include "viewer/dance_panel/dance_panel.h"
+#include "viewer/dance_panel/panel_style.h"
 #include "viewer/words/shown_name.h"
 
 namespace dance {
@@ -33,14 +33,14 @@ void DancePanel::draw_corner(const PanelFrame& frame) {
   const float x = is_at_left() ? margin : frame.width_px - margin - size;
   if (recording_.state() != DanceRecording::State::kIdle) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    const std::string time = dance_ink::clock_text(recording_.elapsed(now));
+    const std::string time = panel_style::clock_text(recording_.elapsed(now));
     const float width = ImGui::CalcTextSize(time.c_str()).x + 1.9f * em;
     const float left = is_at_left() ? x + size + 0.4f * em : x - 0.4f * em - width;
     const float middle = margin + 0.5f * size;
     list.AddRectFilled({left, middle - 0.8f * em}, {left + width, middle + 0.8f * em},
-                       dance_ink::kPaper, 0.8f * em);
-    list.AddCircleFilled({left + 0.8f * em, middle}, 0.36f * em, dance_ink::kBad, 20);
-    list.AddText({std::round(left + 1.4f * em), std::round(middle - 0.5f * em)}, dance_ink::kText,
+                       panel_style::kBackground, 0.8f * em);
+    list.AddCircleFilled({left + 0.8f * em, middle}, 0.36f * em, panel_style::kBad, 20);
+    list.AddText({std::round(left + 1.4f * em), std::round(middle - 0.5f * em)}, panel_style::kText,
                  time.c_str());
   }
   if (!mouse_moved_.is_set() || now - mouse_moved_ > kCornerHolds) return;
@@ -48,15 +48,15 @@ void DancePanel::draw_corner(const PanelFrame& frame) {
   ImGui::SetNextWindowSize({size, size});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1.0f, 1.0f});
-  if (ImGui::Begin("dance-corner", nullptr, dance_ink::kWindow)) {
+  if (ImGui::Begin("dance-corner", nullptr, panel_style::kWindow)) {
     const bool is_clicked = ImGui::InvisibleButton("open", {size, size});
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled({x, margin}, {x + size, margin + size},
-                       ImGui::IsItemHovered() ? IM_COL32(52, 60, 78, 240) : dance_ink::kPaper,
-                       0.4f * em);
+    list.AddRectFilled(
+        {x, margin}, {x + size, margin + size},
+        ImGui::IsItemHovered() ? IM_COL32(52, 60, 78, 240) : panel_style::kBackground, 0.4f * em);
     for (int i = -1; i <= 1; ++i) {
       const float y = std::round(margin + 0.5f * size + 0.5f * em * static_cast<float>(i));
-      list.AddLine({x + 0.55f * em, y}, {x + size - 0.55f * em, y}, dance_ink::kText,
+      list.AddLine({x + 0.55f * em, y}, {x + size - 0.55f * em, y}, panel_style::kText,
                    std::max(1.0f, std::round(0.14f * em)));
     }
     if (is_clicked) open(true);
@@ -76,7 +76,7 @@ float DancePanel::draw_banner(const PanelFrame& frame) {
   if (!kind) return 0.0f;
   const Banner banner = banner_of(*kind, watch_.facts(), texts_);
   const float em = frame.small_font->FontSize, margin = 0.7f * em;
-  const float column = is_open_ ? dance_ink::column_width(em, frame.width_px) : 0.0f;
+  const float column = is_open_ ? panel_style::column_width(em, frame.width_px) : 0.0f;
   float left = is_at_left() ? column : 0.0f;
   const float right = frame.width_px - (is_at_left() ? 0.0f : column);
   // Beside the figures, where that leaves enough.
@@ -85,13 +85,13 @@ float DancePanel::draw_banner(const PanelFrame& frame) {
   const float middle = 0.5f * (left + right);
   ImGui::SetNextWindowPos({std::round(middle - 0.5f * width), margin});
   ImGui::SetNextWindowSize({width, banner_px_ > 0.0f ? banner_px_ : 6.0f * em});
-  if (ImGui::Begin("dance-banner", nullptr, dance_ink::kWindow)) {
-    dance_ink::Paper paper(width);
+  if (ImGui::Begin("dance-banner", nullptr, panel_style::kWindow)) {
+    panel_style::PanelBackground background(width);
     const ImVec2 low = ImGui::GetCursorScreenPos();
-    const ImU32 ink = banner.is_grave ? dance_ink::kBad : dance_ink::kFair;
-    dance_ink::draw_quality(*ImGui::GetWindowDrawList(),
-                            banner.is_grave ? QualityLevel::kBad : QualityLevel::kFair,
-                            {low.x + 0.4f * em, low.y + 0.55f * em}, 0.38f * em);
+    const ImU32 ink = banner.is_grave ? panel_style::kBad : panel_style::kFair;
+    panel_style::draw_quality(*ImGui::GetWindowDrawList(),
+                              banner.is_grave ? QualityLevel::kBad : QualityLevel::kFair,
+                              {low.x + 0.4f * em, low.y + 0.55f * em}, 0.38f * em);
     const float close = controls_.width_of("x");
     ImGui::Indent(1.4f * em);
     ImGui::PushTextWrapPos(width - 1.5f * em - close);
@@ -110,7 +110,7 @@ float DancePanel::draw_banner(const PanelFrame& frame) {
       banners_.close(*kind);
       if (*kind == BannerKind::kRecordingFailed) recording_.forget_trouble();
     }
-    paper.end(banner_px_, dance_ink::kPaper, 0.5f * em);
+    background.end(banner_px_, panel_style::kBackground, 0.5f * em);
   }
   ImGui::End();
   return margin + banner_px_;
@@ -128,10 +128,10 @@ float DancePanel::draw_recorders(const PanelFrame& frame, float banner_end_px) c
   const float width = font->CalcTextSizeA(em, 1e5f, 0.0f, words.c_str()).x + 1.2f * em;
   const float x = std::round(0.5f * (frame.width_px - width));
   ImDrawList& list = *ImGui::GetForegroundDrawList();
-  list.AddRectFilled({x - 0.7f * em, y}, {x + width + 0.7f * em, y + 1.6f * em}, dance_ink::kPaper,
-                     0.8f * em);
-  list.AddCircleFilled({x + 0.4f * em, y + 0.8f * em}, 0.36f * em, dance_ink::kBad, 20);
-  list.AddText(font, em, {x + 1.2f * em, std::round(y + 0.3f * em)}, dance_ink::kText,
+  list.AddRectFilled({x - 0.7f * em, y}, {x + width + 0.7f * em, y + 1.6f * em},
+                     panel_style::kBackground, 0.8f * em);
+  list.AddCircleFilled({x + 0.4f * em, y + 0.8f * em}, 0.36f * em, panel_style::kBad, 20);
+  list.AddText(font, em, {x + 1.2f * em, std::round(y + 0.3f * em)}, panel_style::kText,
                words.c_str());
   return y + 1.6f * em;
 }
@@ -148,9 +148,9 @@ void DancePanel::draw_arrivals(const PanelFrame& frame, float banner_end_px) con
     const float width = font->CalcTextSizeA(size, 1e5f, 0.0f, words.c_str()).x;
     const float x = std::round(0.5f * (frame.width_px - width));
     list.AddRectFilled({x - 0.8f * size, y}, {x + width + 0.8f * size, y + 1.7f * size},
-                       dance_ink::kPaper, 0.85f * size);
+                       panel_style::kBackground, 0.85f * size);
     list.AddText(font, size, {x, std::round(y + 0.33f * size)},
-                 message.has_joined ? dance_ink::kGood : dance_ink::kText, words.c_str());
+                 message.has_joined ? panel_style::kGood : panel_style::kText, words.c_str());
     y += 2.0f * size;
   }
 }
@@ -171,15 +171,15 @@ void DancePanel::draw_closing(const PanelFrame& frame) {
   const std::string words = texts_.say(Text::kDanceClosing, {listed(names)});
   ImGui::PushFont(frame.large_font);
   const float height =
-      dance_ink::wrapped_height(words, width - 2.0f * em) + ImGui::GetFrameHeight() + 3.0f * em;
+      panel_style::wrapped_height(words, width - 2.0f * em) + ImGui::GetFrameHeight() + 3.0f * em;
   ImGui::SetNextWindowPos(
       {std::round(0.5f * (frame.width_px - width)), std::round(0.4f * (frame.height_px - height))});
   ImGui::SetNextWindowSize({width, height});
   ImGui::SetNextWindowFocus();
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em, em});
-  if (ImGui::Begin("dance-closing", nullptr, dance_ink::kWindow)) {
-    dance_ink::Paper paper(width);
-    dance_ink::text(dance_ink::kText, words.c_str());
+  if (ImGui::Begin("dance-closing", nullptr, panel_style::kWindow)) {
+    panel_style::PanelBackground background(width);
+    panel_style::text(panel_style::kText, words.c_str());
     ImGui::SetCursorPosY(height - ImGui::GetFrameHeight() - em);
     if (controls_.mouse_button("close-room", texts_[Text::kDanceCloseRoom],
                                PanelControls::Look::kWarning))
@@ -187,7 +187,7 @@ void DancePanel::draw_closing(const PanelFrame& frame) {
     ImGui::SameLine();
     if (controls_.mouse_button("stay", texts_[Text::kDanceStay], PanelControls::Look::kStrong))
       answer_closing(false);
-    paper.end(height, dance_ink::kPaper, 0.5f * em);
+    background.end(height, panel_style::kBackground, 0.5f * em);
   }
   ImGui::End();
   ImGui::PopStyleVar();
@@ -213,10 +213,10 @@ void DancePanel::draw_slow_note(const PanelFrame& frame) {
       {std::round(0.5f * (frame.width_px - width)), std::round(frame.height_px - height - gap)});
   ImGui::SetNextWindowSize({width, height});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {gap, 0.5f * gap});
-  if (ImGui::Begin("dance-slow", nullptr, dance_ink::kWindow)) {
-    dance_ink::Paper paper(width);
+  if (ImGui::Begin("dance-slow", nullptr, panel_style::kWindow)) {
+    panel_style::PanelBackground background(width);
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(dance_ink::fitted(words, width - act - close - 3.0f * gap).c_str());
+    ImGui::TextUnformatted(panel_style::fitted(words, width - act - close - 3.0f * gap).c_str());
     if (!facts.draws_plainly) {
       ImGui::SameLine(width - close - act - gap);
       if (controls_.button("plainly", texts_[Text::kDanceDrawPlainly]))
@@ -224,7 +224,7 @@ void DancePanel::draw_slow_note(const PanelFrame& frame) {
     }
     ImGui::SameLine(width - close - gap);
     if (controls_.mouse_button("close-slow", "x", PanelControls::Look::kQuiet)) slow_note_.close();
-    paper.end(height, dance_ink::kPaper, 0.5f * em);
+    background.end(height, panel_style::kBackground, 0.5f * em);
   }
   ImGui::End();
   ImGui::PopStyleVar();

@@ -9,16 +9,14 @@
 #include <cmath>
 #include <string>
 
+#include "viewer/panel/panel_colours.h"
+
 namespace dance {
 namespace {
 
 // The second with a teacher.
 constexpr std::array<KeyHelp, 2> kPracticeKeys{
     {{"E", Text::kDoPractice}, {", .", Text::kDoTeacherSpeed}}};
-constexpr ImU32 kSheet = IM_COL32(13, 16, 24, 226);
-constexpr ImU32 kWords = IM_COL32(244, 245, 249, 255);
-constexpr ImU32 kQuietWords = IM_COL32(176, 182, 198, 255);
-constexpr ImU32 kMet = IM_COL32(95, 211, 141, 255);
 constexpr ImU32 kButton = IM_COL32(52, 60, 78, 255);
 constexpr ImU32 kButtonOn = IM_COL32(61, 111, 181, 255);
 constexpr ImU32 kNotYet = IM_COL32(255, 255, 255, 60);
@@ -39,9 +37,9 @@ void draw_dots(ImDrawList& list, const StepScore::Figures& figures, ImVec2 left,
     if (beat < 0)
       list.AddCircleFilled(centre, 0.3f * radius, kNotYet, 12);
     else if (figures.met[static_cast<std::size_t>(beat)])
-      list.AddCircleFilled(centre, radius, kMet, 20);
+      list.AddCircleFilled(centre, radius, panel_colours::kGood, 20);
     else
-      list.AddCircle(centre, radius, kQuietWords, 20, std::max(1.0f, 0.12f * em));
+      list.AddCircle(centre, radius, panel_colours::kQuiet, 20, std::max(1.0f, 0.12f * em));
   }
 }
 
@@ -93,12 +91,13 @@ void PracticePanel::draw(const PanelFrame& frame) {
   float top = std::round(0.7f * em);
   if (needs_.teacher != nullptr) top = draw_teacher(frame, left, top) + std::round(0.4f * em);
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  list.AddRectFilled({left, top}, {left + width, top + height}, kSheet, 0.5f * em);
+  list.AddRectFilled({left, top}, {left + width, top + height}, panel_colours::kBackground,
+                     0.5f * em);
   if (counts) draw_dots(list, figures, {left + pad, top + pad + 0.5f * em}, em);
   list.AddText(&font, font.FontSize, {std::round(left + pad + dots), top + pad},
-               counts ? kWords : kQuietWords, words.c_str());
+               counts ? panel_colours::kText : panel_colours::kQuiet, words.c_str());
   list.AddText(&small, small.FontSize, {left + pad, std::round(top + pad + 1.25f * em)},
-               kQuietWords, late.c_str());
+               panel_colours::kQuiet, late.c_str());
 }
 
 // A row of buttons; its size is known before it is drawn, so that the first picture has it too.
@@ -124,8 +123,8 @@ float PracticePanel::draw_teacher(const PanelFrame& frame, float left_px, float 
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.5f * em);
   ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, 0.25f * em);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, kSheet);
-  ImGui::PushStyleColor(ImGuiCol_Text, kWords);
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, panel_colours::kBackground);
+  ImGui::PushStyleColor(ImGuiCol_Text, panel_colours::kText);
   ImGui::PushFont(&font);
   const auto button = [&](const char* words, float button_px, bool is_on) {
     ImGui::SameLine();

@@ -10,7 +10,7 @@
 #include <cstdlib>
 
 #include "core/base/printable.h"
-#include "viewer/dance_panel/dance_ink.h"
+#include "viewer/dance_panel/panel_style.h"
 
 namespace dance {
 namespace {
@@ -97,8 +97,8 @@ void OwnChoices::draw(PanelControls& controls, const GuestId& guest, std::string
   if (figures_.is_there() && button("own-figure", Text::kOwnFigure)) open(Open::kFigures, guest);
   if (open_ == Open::kFigures) draw_figures(controls, guest);
   if (is_typed_in()) draw_line(controls);
-  if (figures_.is_busy()) dance_ink::text(dance_ink::kQuiet, texts_[Text::kOwnFigureComes]);
-  if (!trouble().empty()) dance_ink::text(dance_ink::kFair, trouble().c_str());
+  if (figures_.is_busy()) panel_style::text(panel_style::kQuiet, texts_[Text::kOwnFigureComes]);
+  if (!trouble().empty()) panel_style::text(panel_style::kFair, trouble().c_str());
   height_px_ = ImGui::GetCursorPosY() - begin;
 }
 
@@ -125,7 +125,7 @@ void OwnChoices::switch_voice(const GuestId& guest, bool is_on) {
 void OwnChoices::draw_figures(PanelControls& controls, const GuestId& guest) {
   if (controls.button("mannequin", texts_[Text::kLobbyMannequin])) figures_.choose(guest, {});
   const auto next = [&](const char* id, const std::string& label) {
-    const std::string shown = dance_ink::fitted(label, 12.0f * ImGui::GetFontSize());
+    const std::string shown = panel_style::fitted(label, 12.0f * ImGui::GetFontSize());
     controls.flow(controls.width_of(shown.c_str()));
     return controls.button(id, shown.c_str());
   };
@@ -147,8 +147,8 @@ void OwnChoices::draw_figures(PanelControls& controls, const GuestId& guest) {
 }
 
 void OwnChoices::draw_line(PanelControls& controls) {
-  dance_ink::text(dance_ink::kQuiet,
-                  texts_[open_ == Open::kName ? Text::kOwnNameHint : Text::kOwnFileHint]);
+  panel_style::text(panel_style::kQuiet,
+                    texts_[open_ == Open::kName ? Text::kOwnNameHint : Text::kOwnFileHint]);
   draw_text();
   if (controls.mouse_button("own-apply", texts_[Text::kOwnApply], PanelControls::Look::kStrong))
     apply_line();
@@ -171,9 +171,9 @@ void OwnChoices::draw_text() const {
   const float y = low.y + pad, marked = left + width_of(editor_.before_selection());
   if (const std::string selection = editor_.selection(); !selection.empty())
     list.AddRectFilled({marked, y}, {marked + width_of(selection), y + em}, kMarkedInk);
-  list.AddText({left, y}, dance_ink::kText, editor_.text().c_str());
+  list.AddText({left, y}, panel_style::kText, editor_.text().c_str());
   list.AddRectFilled({left + caret, y}, {left + caret + std::max(1.0f, 0.08f * em), y + em},
-                     dance_ink::kText);
+                     panel_style::kText);
   list.PopClipRect();
   ImGui::Dummy({width, em + 2.0f * pad});
 }

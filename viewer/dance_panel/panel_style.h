@@ -1,4 +1,4 @@
-// Colours and small shapes of the dance panel.
+// Shapes, texts and layout of the dance panel.
 //
 // Units/frames: pixels.
 // Ownership:    constants; draws on lists of the caller's.
@@ -14,46 +14,40 @@
 #include <string_view>
 
 #include "viewer/dance_panel/quality.h"
+#include "viewer/panel/panel_colours.h"
 
-namespace dance::dance_ink {
+namespace dance::panel_style {
 
-constexpr ImU32 kText = IM_COL32(244, 245, 249, 255);
-constexpr ImU32 kQuiet = IM_COL32(176, 182, 198, 255);
-constexpr ImU32 kPaper = IM_COL32(13, 16, 24, 226);
-constexpr ImU32 kGood = IM_COL32(95, 211, 141, 255);
-constexpr ImU32 kFair = IM_COL32(255, 200, 87, 255);
-constexpr ImU32 kBad = IM_COL32(255, 122, 110, 255);
-constexpr ImU32 kAccent = IM_COL32(111, 183, 255, 255);
-constexpr ImU32 kTrough = IM_COL32(255, 255, 255, 38);
+using namespace panel_colours;
 
-inline ImU32 of(QualityLevel level) {
+inline ImU32 colour_of(QualityLevel level) {
   return level == QualityLevel::kGood ? kGood : level == QualityLevel::kFair ? kFair : kBad;
 }
 
 // Round, three-cornered and square: told apart without colours, too.
 inline void draw_quality(ImDrawList& list, QualityLevel level, ImVec2 centre, float radius) {
-  const ImU32 ink = of(level);
+  const ImU32 colour = colour_of(level);
   if (level == QualityLevel::kGood)
-    list.AddCircleFilled(centre, radius, ink, 20);
+    list.AddCircleFilled(centre, radius, colour, 20);
   else if (level == QualityLevel::kFair)
     list.AddTriangleFilled({centre.x, centre.y - 1.15f * radius},
                            {centre.x + 1.15f * radius, centre.y + 0.9f * radius},
-                           {centre.x - 1.15f * radius, centre.y + 0.9f * radius}, ink);
+                           {centre.x - 1.15f * radius, centre.y + 0.9f * radius}, colour);
   else
     list.AddRectFilled({centre.x - 0.95f * radius, centre.y - 0.95f * radius},
-                       {centre.x + 0.95f * radius, centre.y + 0.95f * radius}, ink);
+                       {centre.x + 0.95f * radius, centre.y + 0.95f * radius}, colour);
 }
 
 // How loud: 0 to 1.
-inline void draw_level(ImDrawList& list, ImVec2 low, ImVec2 size, float level, ImU32 ink) {
+inline void draw_level(ImDrawList& list, ImVec2 low, ImVec2 size, float level, ImU32 colour) {
   const float radius = 0.5f * size.y;
   list.AddRectFilled(low, {low.x + size.x, low.y + size.y}, kTrough, radius);
   const float filled = std::clamp(level, 0.0f, 1.0f) * size.x;
   if (filled > 1.0f)
-    list.AddRectFilled(low, {low.x + std::max(filled, size.y), low.y + size.y}, ink, radius);
+    list.AddRectFilled(low, {low.x + std::max(filled, size.y), low.y + size.y}, colour, radius);
 }
 
-// As much as fits, with "..." behind where that is not all. Names are plain letters.
+// The text, cut and with "..." at its end if it is wider. Names are plain letters.
 inline std::string fitted(std::string_view text, float width) {
   std::string whole(text);
   if (ImGui::CalcTextSize(whole.c_str()).x <= width) return whole;
@@ -68,8 +62,8 @@ inline std::string fitted(std::string_view text, float width) {
   return whole + "...";
 }
 
-inline void text(ImU32 ink, const char* words) {
-  ImGui::PushStyleColor(ImGuiCol_Text, ink);
+inline void text(ImU32 colour, const char* words) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::PushTextWrapPos(0.0f);
   ImGui::TextUnformatted(words);
   ImGui::PopTextWrapPos();
@@ -91,18 +85,18 @@ constexpr ImGuiWindowFlags kWindow =
     ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar |
     ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoFocusOnAppearing;
 
-// Paper of its own, that lies under a content whose height is known only behind it.
-class Paper {
+// A background below content whose height is known only after it is drawn.
+class PanelBackground {
  public:
-  explicit Paper(float width) : list_(*ImGui::GetWindowDrawList()), width_(width) {
+  explicit PanelBackground(float width) : list_(*ImGui::GetWindowDrawList()), width_(width) {
     list_.ChannelsSplit(2);
     list_.ChannelsSetCurrent(1);
   }
-  void end(float height, ImU32 ink, float radius) {
+  void end(float height, ImU32 colour, float radius) {
     list_.ChannelsSetCurrent(0);
     const ImVec2 low = ImGui::GetWindowPos();
     list_.PushClipRectFullScreen();
-    list_.AddRectFilled(low, {low.x + width_, low.y + height}, ink, radius);
+    list_.AddRectFilled(low, {low.x + width_, low.y + height}, colour, radius);
     list_.PopClipRect();
     list_.ChannelsMerge();
   }
@@ -120,4 +114,4 @@ inline std::string clock_text(Duration elapsed) {
              : fmt::format("{}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
 }
 
-}  // namespace dance::dance_ink
+}  // namespace dance::panel_style
