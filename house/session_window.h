@@ -44,7 +44,7 @@ struct WindowChoices {
   std::string teacher;             // a recording to practise beside; "" = none
   std::string place = "studio";    // one of the names in viewer/scene/place.h
   double letters = 1.0;            // size of letters, times the usual one
-  // With frame and task bar they fit a screen of 1366 by 768.
+  // The window with its frame and a task bar fits a screen of 1366 by 768.
   int width_px = 1200;
   int height_px = 640;
   bool operator==(const WindowChoices&) const = default;

@@ -46,7 +46,7 @@ std::string control_path(std::string_view program, std::string_view bus_url, con
 std::string control_path(std::string_view program, std::string_view bus_url);
 // Path for one of several such programs: `path` with a number.
 std::string numbered_control_path(const std::string& path, std::uint64_t number);
-// All such files, including those that killed programs left.
+// The files at these paths, including those that killed programs left.
 std::vector<std::string> numbered_control_files(const std::string& path);
 // The files whose programs listen; removes those that killed programs left.
 std::vector<std::string> numbered_control_paths(const std::string& path);

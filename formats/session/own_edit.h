@@ -1,9 +1,8 @@
-// What a session's text says of a guest of its own house: the shown name, the figure and the voice,
-// and edits of these. The lobby's page You keeps them at the same places.
+// Reads and edits the shown name, the figure and the voice of a guest in the text of a house file.
+// The lobby's page You keeps them under the same keys.
 //
-// Ownership: plain values.
-// Failure:   an error names the file, and the guest whom the file does not name as its own; what is
-//            edited is read again, so that what comes out is TOML.
+// Failure:   an error names the file, and a guest who is not of this house. Each edited text is
+//            parsed again, so that only valid TOML is returned.
 #pragma once
 
 #include <string>

@@ -24,8 +24,7 @@ class SessionFile {
   Result<void> save(const SessionEdit& edit);
   Result<void> save_music_volume(double volume);
   double music_volume() const;
-  // What the file says of a guest of its house, and changes of it. A guest whom the file does not
-  // name as its own is an error.
+  // These read and save the choices of a guest of this house. An unknown guest is an error.
   OwnFigure figure(std::string_view guest) const;
   bool hosts(std::string_view guest) const;
   Result<void> save_shown_name(std::string_view guest, std::string_view name);

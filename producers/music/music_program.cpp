@@ -84,7 +84,7 @@ void MusicProgram::set_song(Song song, float confidence, MonoTime begin, MonoTim
     on_room_music(room_setter_, *room_, now);
 }
 
-// Of the song that is heard, or where it was stopped.
+// Returns the position in the file that is heard now, or at which it was stopped.
 double MusicProgram::file_s(MonoTime now) const {
   return is_paused_ ? paused_at_s_ : (now - begin_).as_seconds() * speed_;
 }

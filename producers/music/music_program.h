@@ -63,7 +63,7 @@ class MusicProgram {
  private:
   // kFinds: the beats are not known yet.
   enum class State { kFinds, kWaits, kPlays, kFollows, kKeepsRoomTime, kStopped };
-  // What is heard until a change of speed has passed through the sound server.
+  // The song as it is heard until a change of speed has passed through the sound server.
   struct Before {
     Song song;
     MonoTime begin;

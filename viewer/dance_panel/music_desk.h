@@ -40,7 +40,7 @@ class MusicDesk {
     double volume = 1.0;  // as the session file has it
     // `style` counts for kStyle only; numbered as in lcmtypes/song_t.lcm.
     std::function<Result<void>(BandRequest, int style)> control_band = {};
-    // Of a file that this house plays alone.
+    // Sets the speed of a file that this house plays alone.
     std::function<Result<void>(double)> tell_speed = {};
   };
   explicit MusicDesk(Needs needs) : needs_(std::move(needs)), volume_(needs_.volume) {}
@@ -54,7 +54,7 @@ class MusicDesk {
   void toggle_mute();
   bool is_muted() const { return is_muted_; }
   double speed() const { return speed_; }
-  // In steps of music_speed.h, each told once.
+  // Speeds are in steps of music_speed.h; each change is sent once.
   void set_speed(double speed);
   void control_band(BandRequest request, int style);
   // What has not been kept yet.

@@ -19,10 +19,10 @@
 namespace dance {
 
 struct PracticeNeeds {
-  // Of the dancer who practises; nullopt while nobody is captured in this house.
+  // The dancer's score; nullopt while nobody is captured in this house.
   std::function<std::optional<StepScore::Figures>(MonoTime now)> score;
   TeacherChoices* teacher = nullptr;  // changed by hand; null: there is none
-  // What keeps the teacher from the stage; "" = nothing.
+  // The reason why the teacher is not on the stage; "" = none.
   std::function<std::string()> teacher_note = {};
 };
 

@@ -32,8 +32,8 @@ class StepScoreBoard {
     MonoTime heard;
     StepScore::Figures figures;
   };
-  // Of this guest or, where none is named, of the first by id. nullopt: nobody is captured in this
-  // house, or they have been silent for some seconds.
+  // Returns the score of this guest or, if none is named, of the first by id. nullopt: no capture
+  // has arrived in this house for some seconds.
   std::optional<Of> find(const std::optional<GuestId>& guest, MonoTime now);
 
  private:

@@ -16,7 +16,7 @@
 
 namespace dance {
 
-// What a person changes while practising.
+// Settings of the teacher that a person changes while practising.
 struct TeacherChoices {
   static constexpr double kSlowest = 0.5, kFastest = 1.0, kStep = 0.1;
 
@@ -25,7 +25,7 @@ struct TeacherChoices {
   bool is_over = false;  // in the pupil's own place; else to the pupil's right
   bool operator==(const TeacherChoices&) const = default;
 };
-// By so many steps of kStep, within the bounds.
+// Changes the speed by N steps of kStep, within the bounds.
 double changed_speed(double speed, int steps);
 
 // A recording to dance beside.

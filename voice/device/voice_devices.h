@@ -59,9 +59,9 @@ class VoiceDevices {
   void work(MonoTime now);
   bool has_microphone() const { return microphone_ != nullptr; }
   bool has_loudspeaker() const { return loudspeaker_ != nullptr; }
-  // What is missing, and the cure; each error is returned once.
+  // Names missing devices and the cure; each error is returned once.
   std::string take_errors() { return troubles_.take(); }
-  // Which devices work again; each recovery is returned once.
+  // Names devices that work again; each recovery is returned once.
   std::string take_recoveries() { return troubles_.take_recoveries(); }
   std::uint64_t underflows() const { return underflows_; }
   Duration ahead() const { return ahead_; }

@@ -15,7 +15,7 @@ constexpr double kMusicSpeedStep = 0.05;
 // The next whole step above (1) or below (-1).
 inline double stepped_music_speed(double speed, int direction) {
   const double steps = std::round(speed / kMusicSpeedStep) + direction;
-  // Of whole hundredths, so that 1 is 1.
+  // Rounding to hundredths makes full speed exactly 1.
   return std::clamp(std::round(100.0 * kMusicSpeedStep * steps) / 100.0, kLeastMusicSpeed,
                     kMostMusicSpeed);
 }

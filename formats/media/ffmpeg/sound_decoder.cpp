@@ -44,7 +44,7 @@ bool is_time(std::int64_t time) {
 }
 constexpr std::int64_t kDiscarded_frames = 4096;
 
-// Of the file, or of its stream of sound, where Ogg has them.
+// Reads a tag of the file, else of its audio stream: Ogg keeps its tags there.
 std::string tag_of(const FfmpegInput& input, const char* name) {
   for (const AVDictionary* tags : {input.format().metadata, input.stream().metadata})
     if (const AVDictionaryEntry* tag = av_dict_get(tags, name, nullptr, 0))

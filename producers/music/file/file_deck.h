@@ -34,7 +34,7 @@ class FileDeck {
 
   FileDeck(Options options, Poller& poller) : options_(std::move(options)), poller_(poller) {}
 
-  // Where a list tells the beats, they are in `program`; else run() has them found.
+  // Puts the beats into `program` if a list has them; else run() starts their search.
   Result<std::unique_ptr<MusicPlayer>> open(MusicProgramOptions& program);
   // After open(), before the poller runs.
   void run(MusicProgram& program);

@@ -123,7 +123,8 @@ float SlowedSource::likeness(const std::vector<float>& wanted, std::int64_t fram
   return product / std::sqrt(energy);
 }
 
-// Where the music is most like what would have followed the last window: roughly, then exactly.
+// Finds the frame from which the music resembles most what followed the last window: first in
+// steps, then frame by frame.
 std::int64_t SlowedSource::best_begin(std::int64_t nominal) const {
   std::vector<float> wanted;
   wanted.reserve(static_cast<std::size_t>(half_ / stride_ + 1));

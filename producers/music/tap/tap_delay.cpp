@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kBounce_s = 0.25 * TapDelay::kPeriod_s;
 constexpr double kMostTime_s = 1e6;
-// From the median of absolute deviations to the standard deviation of a normal distribution.
+// The factor turns the median absolute deviation into the standard deviation of a normal
+// distribution.
 constexpr double kDeviation = 1.4826;
 
 // Into half a period around 0.

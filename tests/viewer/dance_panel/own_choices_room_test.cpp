@@ -1,4 +1,4 @@
-// With the programs of two houses and a server: a name and a figure that a window of one house
+// Two houses and a server as programs: a name and a figure that a window of one house
 // changes during the dance are seen in the other house, also by one that joins later.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// What a person changes about a guest of this house in the dance panel, with mouse and keys.
+// A person changes a guest of this house in the dance panel, with mouse and keys.
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -51,7 +51,7 @@ class OwnChoicesTest : public DanceStage {
   bool open_line() {
     return find_with_keys([&] { return panels_.on_character(U'A'); });
   }
-  // Of choices while one is under way the last counts: each is waited for.
+  // Waits until the choice is applied: a second one before that would replace it.
   bool has_asked(const std::string& what) {
     turn();
     for (int i = 0; panel_->own().changes_figure() && i < 30'000; ++i) {

@@ -23,7 +23,7 @@ class RecordedTeacherTest : public testing::Test {
  protected:
   void SetUp() override { write_recorded_night(options_.file, kRecorded_s, false); }
 
-  // From the first picture in which the recording is there, 50 a second of the person's time.
+  // The hips in 50 pictures a second, from the first one in which the recording is loaded.
   std::vector<Eigen::Vector3f> hips_over(RecordedTeacher& teacher, const TeacherChoices& choices,
                                          double seconds) {
     SceneState scene = scene_at(now_);

@@ -53,7 +53,7 @@ Pose pose_at(SalsaDancer& dancer, const Lesson& lesson, double s) {
   return pose;
 }
 
-// What is shown over the last 30 s of a lesson.
+// The figures shown over the last 30 s of a lesson.
 struct LessonScore {
   double met = 0.0;  // mean share
   double late_ms = 0.0;

@@ -52,7 +52,7 @@ class BandWriter {
 
   // Velocities are those of the loudest parts; softer parts lower them, and each note differs.
   void note(int tick, int length_ticks, BandVoice voice, int key, int velocity);
-  // All notes of a chord from `lowest` upwards, `count` of them.
+  // Writes `count` notes of the chord, from `lowest` upwards.
   void chord(int tick, int length_ticks, BandVoice voice, int lowest, int count, int velocity);
   // One stroke per letter, over and over, from tick to tick. A dot rests; band_writer.cpp lists
   // the letters.
@@ -73,7 +73,7 @@ class BandWriter {
   std::vector<BandSheetNote> sheet_;
 };
 
-// All notes of a song; in the order of their voices, not of time.
+// Returns the notes of a whole song, ordered by voice, not by time.
 std::vector<BandSheetNote> compose(BandWriter& writer);
 
 }  // namespace dance
