@@ -72,7 +72,7 @@ bool HouseHaptics::works(pid_t program) {
   const HapticPlayerOptions& player = haptics_.options.player;
   for (const HapticCommand& command : {HapticCommand{Kind::kLimit, player.limit},
                                        HapticCommand{player.is_on ? Kind::kOn : Kind::kOff, 1.0f}})
-    if (auto told = tell_program(path, text_of(command)); !told || *told != Told::kSent)
+    if (auto told = send_to_program(path, text_of(command)); !told || *told != Told::kSent)
       return false;
   return true;
 }

@@ -40,7 +40,7 @@ bool has_role_control(const std::string& bus, const GuestId& guest) {
 }
 
 Result<void> send_role(const std::string& bus, const GuestId& guest, DanceRole role) {
-  DANCE_TRY(const Told told, tell_program(role_path(bus, guest), name_of(role)));
+  DANCE_TRY(const Told told, send_to_program(role_path(bus, guest), name_of(role)));
   const std::string name(guest.view());
   if (told == Told::kFull) return fail("the house of " + name + " is unresponsive; end it");
   if (told != Told::kSent) return fail("no house here has a synthetic dancer " + name);

@@ -30,7 +30,8 @@ bool has_voice_switch(const std::string& bus, const GuestId& guest) {
 }
 
 Result<void> send_voice_switch(const std::string& bus, const GuestId& guest, bool is_on) {
-  DANCE_TRY(const Told told, tell_program(switch_path(bus, guest), is_on ? kVoiceOn : kVoiceOff));
+  DANCE_TRY(const Told told,
+            send_to_program(switch_path(bus, guest), is_on ? kVoiceOn : kVoiceOff));
   const std::string name(guest.view());
   if (told == Told::kFull) return fail("the house of " + name + " is unresponsive; end it");
   if (told != Told::kSent) return fail("no house here has a voice of " + name);

@@ -86,7 +86,7 @@ ProgramControl::ProgramControl(std::unique_ptr<LocalDatagramSocket> socket, OnCo
 
 ProgramControl::~ProgramControl() { poller_.unwatch(socket_->fd()); }
 
-Result<Told> tell_program(const std::string& path, std::string_view command) {
+Result<Told> send_to_program(const std::string& path, std::string_view command) {
   if (command.size() > ProgramControl::kMostBytes) return fail("the command is too long");
   DANCE_TRY(auto sender, LocalDatagramSender::open(path));
   return sender->send({reinterpret_cast<const std::uint8_t*>(command.data()), command.size()},
@@ -96,7 +96,7 @@ Result<Told> tell_program(const std::string& path, std::string_view command) {
 Result<ToldAll> tell_programs(const std::string& path, std::string_view command) {
   ToldAll all;
   for (const std::string& each : numbered_control_paths(path)) {
-    DANCE_TRY(const Told told, tell_program(each, command));
+    DANCE_TRY(const Told told, send_to_program(each, command));
     all.sent += told == Told::kSent ? 1 : 0;
     all.deaf += told == Told::kFull ? 1 : 0;
   }

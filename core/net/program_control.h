@@ -4,8 +4,8 @@
 // Units/frames: lines of kMostBytes at most.
 // Ownership:    ProgramControl owns its socket file; the poller must outlive it.
 // Threads:      the poller's.
-// Failure:      open() names a path that another program serves; tell_program() reports whether a
-//               program received the command.
+// Failure:      open() names a path that another program serves; send_to_program() reports whether
+//               a program received the command.
 #pragma once
 
 #include <functional>
@@ -52,7 +52,7 @@ std::vector<std::string> numbered_control_files(const std::string& path);
 std::vector<std::string> numbered_control_paths(const std::string& path);
 
 using Told = LocalDatagramSender::Sent;
-Result<Told> tell_program(const std::string& path, std::string_view command);
+Result<Told> send_to_program(const std::string& path, std::string_view command);
 // Sends to all of numbered_control_paths(): how many received it, and how many do not listen.
 struct ToldAll {
   int sent = 0;

@@ -25,9 +25,9 @@ std::size_t at(XrHand hand) { return static_cast<std::size_t>(hand); }
 Result<std::unique_ptr<HeadsetDisplay>> HeadsetDisplay::create(
     XrDancerSession& session, XrInput& input, HeadsetCapture& capture, HeadsetScene& scene,
     HeadsetWindow& window, StereoPainter& painter, const HeadsetDisplayOptions& options,
-    TellVoice tell_voice) {
+    SendVoiceCommand send_voice_command) {
   std::unique_ptr<HeadsetDisplay> display(new HeadsetDisplay(
-      session, input, capture, scene, window, painter, options, std::move(tell_voice)));
+      session, input, capture, scene, window, painter, options, std::move(send_voice_command)));
   DANCE_TRY(display->frames_, XrFrames::create(session, options.scale));
   scene.begin_session();
   return display;
@@ -35,7 +35,8 @@ Result<std::unique_ptr<HeadsetDisplay>> HeadsetDisplay::create(
 
 HeadsetDisplay::HeadsetDisplay(XrDancerSession& session, XrInput& input, HeadsetCapture& capture,
                                HeadsetScene& scene, HeadsetWindow& window, StereoPainter& painter,
-                               const HeadsetDisplayOptions& options, TellVoice tell_voice)
+                               const HeadsetDisplayOptions& options,
+                               SendVoiceCommand send_voice_command)
     : session_(session),
       input_(input),
       capture_(capture),
@@ -43,7 +44,7 @@ HeadsetDisplay::HeadsetDisplay(XrDancerSession& session, XrInput& input, Headset
       window_(window),
       painter_(painter),
       options_(options),
-      tell_voice_(std::move(tell_voice)),
+      send_voice_command_(std::move(send_voice_command)),
       sensors_(session, input) {}
 
 void HeadsetDisplay::hear() {
@@ -174,7 +175,7 @@ void HeadsetDisplay::use_panel(const XrFrames::Turn& turn, const SceneState& sce
   const PanelWords words = words_of(scene);
   switch (*action) {
     case PanelAction::kMute:
-      if (words.has_voice) tell_voice_(!words.is_muted);
+      if (words.has_voice) send_voice_command_(!words.is_muted);
       break;
     case PanelAction::kRecentre:
       capture_.request_recentre();

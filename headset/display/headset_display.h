@@ -30,14 +30,14 @@ struct HeadsetDisplayOptions {
 
 class HeadsetDisplay {
  public:
-  using TellVoice = std::function<void(bool mutes)>;
+  using SendVoiceCommand = std::function<void(bool mutes)>;
 
   static Result<std::unique_ptr<HeadsetDisplay>> create(XrDancerSession& session, XrInput& input,
                                                         HeadsetCapture& capture,
                                                         HeadsetScene& scene, HeadsetWindow& window,
                                                         StereoPainter& painter,
                                                         const HeadsetDisplayOptions& options,
-                                                        TellVoice tell_voice);
+                                                        SendVoiceCommand send_voice_command);
 
   // One picture; waits for its turn.
   Result<void> turn();
@@ -49,7 +49,7 @@ class HeadsetDisplay {
  private:
   HeadsetDisplay(XrDancerSession& session, XrInput& input, HeadsetCapture& capture,
                  HeadsetScene& scene, HeadsetWindow& window, StereoPainter& painter,
-                 const HeadsetDisplayOptions& options, TellVoice tell_voice);
+                 const HeadsetDisplayOptions& options, SendVoiceCommand send_voice_command);
   Result<void> draw(const XrFrames::Turn& turn, bool& is_drawn);
   void hear();
   void use_panel(const XrFrames::Turn& turn, const SceneState& scene, MonoTime now);
@@ -65,7 +65,7 @@ class HeadsetDisplay {
   HeadsetWindow& window_;
   StereoPainter& painter_;
   HeadsetDisplayOptions options_;
-  TellVoice tell_voice_;
+  SendVoiceCommand send_voice_command_;
   std::unique_ptr<XrFrames> frames_;
   XrSensors sensors_;
   XrSight sight_;

@@ -94,8 +94,8 @@ class StereoShow final : public HeadsetShow {
   }
 
   void tell(bool mutes) {
-    const auto told =
-        tell_voice(options_.capture.bus_url, options_.capture.guest, mutes ? "mute" : "unmute");
+    const auto told = send_voice_command(options_.capture.bus_url, options_.capture.guest,
+                                         mutes ? "mute" : "unmute");
     if (!told) talk::warn("{}", told.error().what);
   }
 

@@ -50,7 +50,7 @@ void BeatPublisher::on_beat_heard(const Beat& beat, MonoTime now) {
   if (!is_own) other_heard_ = now;
 }
 
-bool BeatPublisher::hears_another_publisher(MonoTime now) const {
+bool BeatPublisher::has_other_publisher(MonoTime now) const {
   return other_heard_.is_set() && now - other_heard_ < kOtherTimeout;
 }
 

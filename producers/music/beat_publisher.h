@@ -34,7 +34,7 @@ class BeatPublisher {
   // At once, between two periods: the music has stopped, or the program ends.
   void publish(MonoTime now);
   // Another program has published a beat in the last seconds.
-  bool hears_another_publisher(MonoTime now) const;
+  bool has_other_publisher(MonoTime now) const;
   std::uint64_t published() const { return published_; }
 
  private:

@@ -156,9 +156,9 @@ Result<void> follow_microphone(const ProgramOptions& options) {
   });
   bool warned_of_another = false;
   poller->add_timer(mono_now(), [&](MonoTime now) {
-    if (publisher.hears_another_publisher(now) && !warned_of_another)
+    if (publisher.has_other_publisher(now) && !warned_of_another)
       talk::warn("{}", kAnotherPublisher);
-    warned_of_another = publisher.hears_another_publisher(now);
+    warned_of_another = publisher.has_other_publisher(now);
     return now + Duration::s(1);
   });
   stop_after(*poller, options.seconds);
@@ -271,8 +271,8 @@ Result<void> play(const ProgramOptions& options) {
   if (!options.guest.empty()) program_options.guest = *GuestId::parse(options.guest);
   program_options.follows = options.follow;
   std::unique_ptr<MusicPlayer> player = std::make_unique<SilentPlayer>();
-  DANCE_TRY(FileDeck::Options deck_wish, deck_options(options));
-  FileDeck deck(std::move(deck_wish), *poller);
+  DANCE_TRY(FileDeck::Options chosen, deck_options(options));
+  FileDeck deck(std::move(chosen), *poller);
   if (!options.file.empty()) {
     DANCE_TRY(player, deck.open(program_options));
   }

@@ -242,9 +242,9 @@ MonoTime MusicProgram::each_second(MonoTime now) {
   if (is_leader_ && (state_ == State::kPlays || state_ == State::kFollows))
     bus_.publish(Channel::of(Signal::kMusic, Where::kCapture, options_.guest),
                  room_music_.update(*options_.song, begin_, now));
-  const bool hears_another_publisher = publisher_->hears_another_publisher(now);
-  if (hears_another_publisher && !warned_of_another_) talk::warn("{}", kAnotherPublisher);
-  warned_of_another_ = hears_another_publisher;
+  const bool has_other_publisher = publisher_->has_other_publisher(now);
+  if (has_other_publisher && !warned_of_another_) talk::warn("{}", kAnotherPublisher);
+  warned_of_another_ = has_other_publisher;
   return now + kMusicSecond;
 }
 

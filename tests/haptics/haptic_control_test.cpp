@@ -117,7 +117,7 @@ TEST_F(HapticControls, WhatIsNoCommandChangesNothing) {
   for (const char* text : {"", "o", "offf", "limit", "limit ", "limit 2", "limit -0.1", "limit nan",
                            "limit 0.5x", "\x1b[2J"}) {
     EXPECT_FALSE(parse_haptic_command(text)) << text;
-    ASSERT_TRUE(tell_program(paths[0], text));
+    ASSERT_TRUE(send_to_program(paths[0], text));
   }
   turn();
   EXPECT_EQ((*control)->refused(), 10u);

@@ -68,7 +68,7 @@ TEST(Access, ARoomKnowsWhetherAHostIsThere) {
   tunnel.seal_anew(host);
   tunnel.run(Duration::ms(100));
   EXPECT_TRUE(has_host());
-  host.link->say_goodbye();
+  host.link->send_goodbye();
   host.is_running = false;
   tunnel.run(Duration::ms(100));
   EXPECT_FALSE(has_host());
@@ -147,7 +147,7 @@ TEST(Listeners, HaveABoundOfTheirOwn) {
   tunnel.seal_anew(first);
   tunnel.run(Duration::ms(100));
   EXPECT_TRUE(first.link->is_connected());
-  second.link->say_goodbye();
+  second.link->send_goodbye();
   second.is_running = false;
   tunnel.run(Duration::s(2));
   EXPECT_TRUE(third.link->is_connected());

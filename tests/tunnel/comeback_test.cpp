@@ -207,7 +207,7 @@ TEST(Comeback, NobodyDancesAsSomebodyElseOfTheHouse) {
     });
   };
   dance(Duration::s(1));
-  carol.link->say_goodbye();
+  carol.link->send_goodbye();
   carol.is_running = false;
   dance(Duration::s(1));
   for (int i = 0; i < 8; ++i) {

@@ -43,7 +43,7 @@ class Hostile : public ::testing::Test {
     c.is_running = false;
     auto& d = tunnel.add_house("salsa", {"dora"});
     dance(Duration::ms(100));
-    d.link->say_goodbye();
+    d.link->send_goodbye();
     d.is_running = false;
     dance(Duration::ms(100));
     tunnel.on_datagram = {};

@@ -163,7 +163,7 @@ TEST_F(InterestRoom, IsToldAgainUntilItIsAcknowledgedAndThroughSessions) {
   ASSERT_TRUE(c.link->is_connected());
   EXPECT_EQ(share_of_alice(c, dance, 1).poses_per_s, 0);
   // Who comes in the same slot is somebody else.
-  a.link->say_goodbye();
+  a.link->send_goodbye();
   dance.run(Duration::ms(100));
   tunnel.link_options.interest = {};
   tunnel.start_link(a, "salsa", {"anna"});

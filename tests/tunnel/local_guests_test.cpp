@@ -16,7 +16,7 @@ TEST(LocalGuests, ATakenNameIsRefusedByNameAndGetsItsTurnWhenItIsFree) {
   EXPECT_FALSE(thief.link->is_connected());
   EXPECT_TRUE(thief.saw("refused 3 alice"));
   EXPECT_TRUE(a.link->is_connected());
-  a.link->say_goodbye();
+  a.link->send_goodbye();
   a.is_running = false;
   tunnel.run(Duration::ms(1100));
   EXPECT_TRUE(thief.link->is_connected());
@@ -47,7 +47,7 @@ TEST(LocalGuests, EachOfSeveralTakenNamesGetsItsTurn) {
   const auto hellos = b.link->counters().hellos;
   tunnel.run(Duration::s(5));
   EXPECT_LE(b.link->counters().hellos, hellos + 12) << "at the pace of the tries";
-  a.link->say_goodbye();
+  a.link->send_goodbye();
   a.is_running = false;
   tunnel.run(Duration::ms(1500));
   EXPECT_TRUE(b.link->is_connected());
@@ -108,7 +108,7 @@ TEST(LocalGuests, AnAddedGuestWhoseNameIsTakenIsRefusedAloneAndAskedForAgain) {
   EXPECT_TRUE(b.link->is_connected());
   EXPECT_GT(a.heard_of(guest("bob")), 20u);
   EXPECT_GT(b.heard_of(guest("alice")), 20u) << "the other house's alice is heard all the same";
-  a.link->say_goodbye();
+  a.link->send_goodbye();
   a.is_running = false;
   dance.run(Duration::s(2));
   auto& c = tunnel.add_house("salsa", {"carol"});

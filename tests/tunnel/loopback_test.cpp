@@ -183,7 +183,7 @@ TEST(SealTroubleText, SaysNothingWhereThereWasNoneAndElseEachThing) {
 TEST_F(LoopbackLinks, AServerStartedAgainOnItsPortGetsItsLinksBack) {
   auto a = link("alice");
   ASSERT_TRUE(turn_until([&] { return a->is_connected(); }));
-  server->say_goodbye();
+  server->send_goodbye();
   server.reset();
   ASSERT_TRUE(turn_until([&] { return !a->is_connected(); }));
   auto again = Server::open(address, options, *poller);

@@ -187,7 +187,7 @@ void write_tunnel(const std::filesystem::path& root) {
     append_step(seeds["server_datagram/type_34"], access.any_name ? 2 : 3, bytes);
     tunnel.inject(tunnel.add_peer(access), datagram);
   }
-  scene.a->link->say_goodbye();
+  scene.a->link->send_goodbye();
   tunnel.run(Duration::ms(30));
   for (const auto& [name, script] : seeds) write(root / "tunnel/corpus" / name, script);
   write(root / "tunnel/corpus/server_datagram/conversation", all[true]);

@@ -40,7 +40,7 @@ TEST_F(Kept, ADancerWhoStoppedIsOnANewcomersStageWithinARoundTrip) {
     tunnel.run(Duration::s(1));
     EXPECT_EQ(c.heard_of(guest("alice")), 1u) << "once: it is acknowledged";
     EXPECT_EQ(c.link->remote_stats().at(0).lost, 0u);
-    c.link->say_goodbye();
+    c.link->send_goodbye();
     c.is_running = false;
   }
 }
@@ -110,7 +110,7 @@ TEST_F(Kept, IsSaidAgainWhereItWasLostOrCameBeforeTheSkeleton) {
     tunnel.run(Duration::ms(200));
     EXPECT_EQ(c.heard_of(guest("alice")), 1u) << static_cast<int>(lost);
     tunnel.on_datagram = {};
-    c.link->say_goodbye();
+    c.link->send_goodbye();
     c.is_running = false;
   }
 }
@@ -144,7 +144,7 @@ TEST_F(Kept, WhoWantsSomebodyAgainSeesWhereTheDanceHasEnded) {
 }
 
 TEST_F(Kept, IsGoneWithItsGuest) {
-  a->link->say_goodbye();
+  a->link->send_goodbye();
   tunnel.run(Duration::ms(50));
   tunnel.start_link(*a, "salsa", {"anna"});
   tunnel.run(Duration::ms(200));

@@ -178,7 +178,7 @@ TEST_F(RoomStates, IgnoresTheLockOfAHostWhoHasLeft) {
     locked.locked = true;
     say(host, "dora", locked);
     tunnel.run(Duration::ms(300));
-    host.link->say_goodbye();
+    host.link->send_goodbye();
   }
   tunnel.run(Duration::ms(300));
   ASSERT_TRUE(a.song);

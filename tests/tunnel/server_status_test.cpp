@@ -166,7 +166,7 @@ TEST_F(StatusTest, WhoHasLeftIsGone) {
   Dance dance{tunnel, {{&a, guest("alice")}}};
   run(dance, 2);
   EXPECT_EQ(status().rooms.size(), 2u);
-  b.link->say_goodbye();
+  b.link->send_goodbye();
   b.is_running = false;
   run(dance, 1);
   ASSERT_EQ(status().rooms.size(), 1u);
@@ -293,7 +293,7 @@ TEST_F(StatusTest, MetricsNameWhoIsHereAndForgetWhoHasLeft) {
   EXPECT_EQ(text.find("guest_jitter_seconds{room=\"salsa\",guest=\"anna\"}"), std::string::npos)
       << "nothing is known of it";
   EXPECT_EQ(text.find("somewhere"), std::string::npos) << "addresses are not bounded";
-  b.link->say_goodbye();
+  b.link->send_goodbye();
   b.is_running = false;
   run(dance, 1);
   EXPECT_EQ(metrics_text(status()).find("bob"), std::string::npos);

@@ -156,7 +156,7 @@ TEST(Session, AGoodbyeIsHeardAtOnce) {
   auto& a = tunnel.add_house("salsa", {"alice"});
   auto& b = tunnel.add_house("salsa", {"bob"});
   tunnel.run(Duration::ms(300));
-  a.link->say_goodbye();
+  a.link->send_goodbye();
   a.is_running = false;
   tunnel.run(Duration::ms(12));
   EXPECT_TRUE(b.saw("-alice"));
@@ -168,7 +168,7 @@ TEST(Session, TheCountsOfOneWhoLeftAreKeptForTheSummary) {
   auto& b = tunnel.add_house("salsa", {"bob"});
   Dance{tunnel, {{&a, guest("alice")}}}.run(Duration::s(1));
   tunnel.run(Duration::ms(50));
-  a.link->say_goodbye();
+  a.link->send_goodbye();
   tunnel.run(Duration::ms(50));
   const auto stats = b.link->remote_stats();
   ASSERT_EQ(stats.size(), 1u);

@@ -86,7 +86,7 @@ class Soak : public ::testing::Test {
         dancer.house->is_cut = true;
         break;
       case 1:
-        dancer.house->link->say_goodbye();
+        dancer.house->link->send_goodbye();
         dancer.house->is_running = false;
         break;
       case 2:

@@ -147,7 +147,7 @@ TEST_F(States, AGuestsGoWithTheGuestAndTheRoomsStay) {
   say(a, "alice", scene_named("mill"));
   tunnel.run(Duration::ms(100));
   EXPECT_EQ(b.avatars.size(), 1u);
-  a.link->say_goodbye();
+  a.link->send_goodbye();
   a.is_running = false;
   tunnel.run(Duration::ms(100));
   House& c = tunnel.add_house("salsa", {"alice"});  // another one of this name
@@ -159,7 +159,7 @@ TEST_F(States, AGuestsGoWithTheGuestAndTheRoomsStay) {
   EXPECT_EQ(d.scene->first, guest("alice"));
   // The last one closes the room: nothing is left of it.
   for (House* house : {&b, &c, &d}) {
-    house->link->say_goodbye();
+    house->link->send_goodbye();
     house->is_running = false;
   }
   tunnel.run(Duration::ms(100));

@@ -214,7 +214,7 @@ MonoTime Link::next_deadline() const {
 }
 
 Link::~Link() {
-  core_.say_goodbye();
+  core_.send_goodbye();
   seal_.close();
   poller_.remove_timer(timer_);
   poller_.unwatch(socket_.fd());

@@ -79,7 +79,7 @@ class LinkCore {
   // Files of avatars: tunnel/link/signals/link_files.h.
   LinkFiles& files() { return files_; }
   const LinkFiles& files() const { return files_; }
-  void say_goodbye() { session_.say_goodbye(); }
+  void send_goodbye() { session_.send_goodbye(); }
 
   LinkState state() const { return link_.state; }
   bool is_connected() const { return link_.is_connected(); }

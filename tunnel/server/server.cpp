@@ -147,10 +147,10 @@ void Server::on_readable(MonoTime now) {
   poller_.set_deadline(timer_, next_deadline());
 }
 
-void Server::say_goodbye() {
+void Server::send_goodbye() {
   // First: links may ask the others at once.
   if (cluster_ != nullptr) cluster_->leave();
-  core_.say_goodbye();
+  core_.send_goodbye();
   socket_.flush();
 }
 

@@ -51,7 +51,7 @@ class Server {
   // The result of a house's request, see on_binding.
   void answer_binding(PeerId peer, Binding binding);
   // Announces the end to every link and to the cluster, so that none has to wait for a timeout.
-  void say_goodbye();
+  void send_goodbye();
   // Sends on what the cluster delivered. Call after each batch.
   void end_cluster_turn(MonoTime now);
   // The clock that links see: this process's, or the cluster's.

@@ -53,7 +53,7 @@ class ServerCore {
   // The clock has become another: all sessions end, and their links begin anew.
   void end_sessions();
   // Tells everybody that the server ends.
-  void say_goodbye() { keepalive_.send_goodbyes(); }
+  void send_goodbye() { keepalive_.send_goodbyes(); }
 
   // As ServerAdmission's.
   void set_reserved(std::function<bool(const GuestId&)> is_reserved) {

@@ -35,7 +35,7 @@ struct DanceNeeds {
   Language language = Language::kEnglish;
   DanceRecording::Options recording;
   // A line for the dance voice of a guest of this house, as "volume bob=0.5".
-  std::function<Result<void>(const GuestId& guest, std::string_view command)> tell_voice;
+  std::function<Result<void>(const GuestId& guest, std::string_view command)> send_voice_command;
   // The machine's wall clock, since any zero of its own.
   std::function<Duration()> wall;
   MusicDesk::Needs music = {};

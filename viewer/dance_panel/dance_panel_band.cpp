@@ -82,7 +82,7 @@ bool DancePanel::finds_beat(const PanelFrame& frame) const {
 }
 
 void DancePanel::draw_own_song() {
-  if (!needs_.music.control_band || !needs_.music.tell_speed) return;
+  if (!needs_.music.control_band || !needs_.music.send_speed) return;
   auto speed = static_cast<float>(music_.speed());
   const std::string words =
       texts_.say(Text::kDanceMusicSpeed, {std::to_string(std::lround(100.0 * music_.speed()))});

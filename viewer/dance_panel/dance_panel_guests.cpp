@@ -227,9 +227,9 @@ void DancePanel::tell_volume(const SceneState& scene, const GuestId& guest) {
   const float volume = records_.choice_of(guest).heard_volume();
   const std::string command = fmt::format("volume {}={:.2f}", guest.view(), volume);
   voice_trouble_ = scene.voices.empty() ? texts_[Text::kDanceNoVoice] : "";
-  if (!needs_.tell_voice) return;
+  if (!needs_.send_voice_command) return;
   for (const SceneVoice& voice : scene.voices)
-    if (const auto told = needs_.tell_voice(voice.guest, command); !told)
+    if (const auto told = needs_.send_voice_command(voice.guest, command); !told)
       voice_trouble_ = told.error().what;
 }
 

@@ -38,8 +38,8 @@ void MusicDesk::set_speed(double speed) {
   if (speed == speed_) return;
   speed_ = speed;
   trouble_.clear();
-  if (!needs_.tell_speed) return;
-  if (const auto told = needs_.tell_speed(speed); !told) trouble_ = told.error().what;
+  if (!needs_.send_speed) return;
+  if (const auto told = needs_.send_speed(speed); !told) trouble_ = told.error().what;
 }
 
 void MusicDesk::control_band(BandRequest request, int style) {

@@ -41,7 +41,7 @@ class MusicDesk {
     // `style` counts for kStyle only; numbered as in lcmtypes/song_t.lcm.
     std::function<Result<void>(BandRequest, int style)> control_band = {};
     // Sets the speed of a file that this house plays alone.
-    std::function<Result<void>(double)> tell_speed = {};
+    std::function<Result<void>(double)> send_speed = {};
   };
   explicit MusicDesk(Needs needs) : needs_(std::move(needs)), volume_(needs_.volume) {}
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/store/avatar_store.h"
-#include "viewer/dance_panel/own/figure_desk.h"
+#include "viewer/dance_panel/own/figure_controller.h"
 
 namespace dance {
 

@@ -38,7 +38,7 @@ MusicDesk::Needs music_needs(const std::string& bus, std::shared_ptr<SessionFile
     command.volume = volume;
     return send_music_command(bus, command);
   };
-  needs.tell_speed = [bus](double speed) {
+  needs.send_speed = [bus](double speed) {
     MusicCommand command;
     command.what = MusicCommand::What::kSpeed;
     command.speed = speed;
@@ -105,8 +105,9 @@ DancePanel* add_dance_panel(const PanelNeeds& needs, const WindowPanel& at_right
                    {},
                    music_needs(options.feed.bus_url, file)};
   dance.own = own_needs(*board, options.feed.bus_url, std::move(file));
-  dance.tell_voice = [bus = options.feed.bus_url](const GuestId& guest, std::string_view command) {
-    return tell_voice(bus, guest, command);
+  dance.send_voice_command = [bus = options.feed.bus_url](const GuestId& guest,
+                                                          std::string_view command) {
+    return send_voice_command(bus, guest, command);
   };
   dance.has_role = [bus = options.feed.bus_url](const GuestId& guest) {
     return has_role_control(bus, guest);

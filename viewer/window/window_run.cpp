@@ -86,7 +86,7 @@ WindowRun::WindowRun(const ViewOptions& options, PictureSource& source)
       director_(options.camera, options.view),
       voice_keys_(
           [&options](const GuestId& guest, std::string_view command) {
-            return tell_voice(options.feed.bus_url, guest, command);
+            return send_voice_command(options.feed.bus_url, guest, command);
           },
           options.language),
       path_(Duration::period_of_hz(60.0), path_options(options)),

@@ -23,8 +23,9 @@ Result<std::unique_ptr<VoiceControl>> VoiceControl::open(const std::string& bus,
   return std::unique_ptr<VoiceControl>(new VoiceControl(std::move(*control)));
 }
 
-Result<void> tell_voice(const std::string& bus, const GuestId& guest, std::string_view command) {
-  DANCE_TRY(const Told told, tell_program(voice_control_path(bus, guest), command));
+Result<void> send_voice_command(const std::string& bus, const GuestId& guest,
+                                std::string_view command) {
+  DANCE_TRY(const Told told, send_to_program(voice_control_path(bus, guest), command));
   if (told == Told::kNobody)
     return fail("no dance voice runs for " + std::string(guest.view()) +
                 " on this bus; start it with: dance voice --guest " + std::string(guest.view()));

@@ -5,7 +5,7 @@
 // Ownership:    VoiceControl owns its socket file; the poller must outlive it.
 // Threads:      the poller's.
 // Failure:      open() fails where another program speaks for the same guest on the same bus;
-//               tell_voice() says when none does.
+//               send_voice_command() says when none does.
 #pragma once
 
 #include <memory>
@@ -31,6 +31,7 @@ class VoiceControl {
 
 // `bus` as the program was given it.
 std::string voice_control_path(const std::string& bus, const GuestId& guest);
-Result<void> tell_voice(const std::string& bus, const GuestId& guest, std::string_view command);
+Result<void> send_voice_command(const std::string& bus, const GuestId& guest,
+                                std::string_view command);
 
 }  // namespace dance

@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
   return dance::run_program(line, argc, argv, [&]() -> dance::Result<void> {
     const auto guest = *dance::GuestId::parse(options.guest);
     for (const std::string& command : commands)
-      if (auto told = dance::tell_voice(options.bus, guest, command); !told) return told;
+      if (auto told = dance::send_voice_command(options.bus, guest, command); !told) return told;
     return {};
   });
 }

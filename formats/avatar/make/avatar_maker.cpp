@@ -183,7 +183,7 @@ class AvatarMaker {
   void add_body(const std::vector<FigureLayer>& layers) {
     std::map<int, Sheet> by_material;
     for (const FigureLayer& layer : layers) {
-      Sheet sheet = bent_.sheet_of(layer, budget_of(layer, has_skirt(design_)));
+      Sheet sheet = bent_.build_sheet(layer, budget_of(layer, has_skirt(design_)));
       if (layer.material == Material::kTop && top_ == cloth_) map_shirt(sheet, places_);
       add_to(by_material[material_of(layer.material)], sheet);
     }
@@ -198,7 +198,7 @@ class AvatarMaker {
       eyes[eye] =
           builder_.add_node(eye == 0 ? "leftEye" : "rightEye", kHeadJoint, features.eye_m(eye));
     builder_.set_eyes(eyes[0], eyes[1]);
-    Sheet head = bent_.sheet_of(face.layer(), 1250);
+    Sheet head = bent_.build_sheet(face.layer(), 1250);
     features.add_jaw(head);
     add_to(head, features.lids());
     constexpr FirstPerson kSeenByOthers = FirstPerson::kThirdPersonOnly;
@@ -209,7 +209,7 @@ class AvatarMaker {
     builder_.add_sheet(features.mouth_inside(), mouth_, kSeenByOthers);
     builder_.add_sheet(features.teeth(), teeth_, kSeenByOthers);
     builder_.add_sheet(features.lips(), lips_, kSeenByOthers);
-    Sheet hair = bent_.sheet_of(hair_layer(face, design_.look.hair_style), 850);
+    Sheet hair = bent_.build_sheet(hair_layer(face, design_.look.hair_style), 850);
     add_to(hair, swinging_hair(face, design_.look.hair_style, builder_, for_hair_));
     builder_.add_sheet(hair, hair_, kSeenByOthers);
   }

@@ -99,7 +99,7 @@ std::vector<Vector3f> BentFigure::bent(const Sheet& sheet) const {
   return places;
 }
 
-Sheet BentFigure::sheet_of(const FigureLayer& layer, std::size_t most_triangles) const {
+Sheet BentFigure::build_sheet(const FigureLayer& layer, std::size_t most_triangles) const {
   const Surface surface = surface_of(layer);
   Sheet fine;
   for (std::size_t v = 0; v < surface.places_m.size(); ++v) {

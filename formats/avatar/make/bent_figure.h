@@ -21,7 +21,7 @@ class BentFigure {
   explicit BentFigure(const Skeleton& skeleton);
 
   // The layer's surface with about `most_triangles`.
-  Sheet sheet_of(const FigureLayer& layer, std::size_t most_triangles) const;
+  Sheet build_sheet(const FigureLayer& layer, std::size_t most_triangles) const;
 
  private:
   std::vector<Eigen::Vector3f> bent(const Sheet& sheet) const;

@@ -66,7 +66,7 @@ Sheet with_shapes(Sheet sheet) {
   return sheet;
 }
 
-Sheet sheet_of(const FigureLayer& layer, const SkinWeighting& weighting) {
+Sheet build_sheet(const FigureLayer& layer, const SkinWeighting& weighting) {
   const Surface surface = surface_of(layer);
   Sheet sheet;
   sheet.triangles = surface.triangles;
@@ -99,11 +99,11 @@ void add_mannequin_head(const Skeleton& skeleton, const GuestLook& look, int ski
 
   FigureLayer skull = face.layer();
   skull.cell_m = face.scale() * 0.0085f;
-  Sheet head = sheet_of(skull, weighting);
+  Sheet head = build_sheet(skull, weighting);
   features.add_jaw(head);
   add_to(head, features.lids());
   builder.add_sheet(with_shapes(std::move(head)), skin);
-  Sheet dark = sheet_of(hair_of(face, look.hair_style), weighting);
+  Sheet dark = build_sheet(hair_of(face, look.hair_style), weighting);
   add_to(dark, features.brows());
   builder.add_sheet(with_shapes(std::move(dark)), hair);
 

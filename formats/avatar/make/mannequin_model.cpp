@@ -15,7 +15,7 @@ int add_material(ModelBuilder& builder, Material material, const GuestLook& look
   return builder.add_material(std::move(out));
 }
 
-Sheet sheet_of(const BodyMeshPart& part) {
+Sheet build_sheet(const BodyMeshPart& part) {
   Sheet sheet;
   sheet.triangles = part.triangles;
   for (std::size_t v = 0; v < part.places_m.size(); ++v) {
@@ -36,7 +36,7 @@ AvatarModel mannequin_model(const Skeleton& skeleton, const GuestLook& look, boo
   for (const BodyMeshPart& part : body_mesh_below_head(skeleton, look, has_fingers)) {
     const int material = add_material(builder, part.material, look);
     if (part.material == Material::kSkin) skin = material;
-    builder.add_sheet(sheet_of(part), material);
+    builder.add_sheet(build_sheet(part), material);
   }
   if (skin < 0) skin = add_material(builder, Material::kSkin, look);
   const int hair = add_material(builder, Material::kHair, look);

@@ -107,7 +107,7 @@ void BandProgram::set_gain(MonoTime now) {
 }
 
 MonoTime BandProgram::work(MonoTime now) {
-  room_.set_has_other_music(publisher_->hears_another_publisher(now));
+  room_.set_has_other_music(publisher_->has_other_publisher(now));
   room_.work(now);
   if (room_.request() && (!published_ || !is_same_song(*published_, *room_.request()))) {
     published_ = room_.request();
@@ -129,7 +129,7 @@ MonoTime BandProgram::each_second(MonoTime now) {
 }
 
 std::optional<Beat> BandProgram::beat(MonoTime now) {
-  if (publisher_->hears_another_publisher(now)) return std::nullopt;
+  if (publisher_->has_other_publisher(now)) return std::nullopt;
   if (room_.has_other_music(now))
     return room_music_ ? std::optional(beat_of_room_music(*room_music_, now)) : std::nullopt;
   if (!room_.song()) return std::nullopt;

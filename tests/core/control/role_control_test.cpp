@@ -26,7 +26,7 @@ TEST(RoleControl, DeliversARoleOnlyToTheHouseOfItsDancer) {
   EXPECT_FALSE(has_role_control(kRoleBus, bob));
   EXPECT_FALSE(send_role(kRoleBus, bob, DanceRole::kLead));
   ASSERT_TRUE(send_role(kRoleBus, ann, DanceRole::kFollow));
-  ASSERT_TRUE(tell_program(control_path("role", kRoleBus, ann), "dance"));
+  ASSERT_TRUE(send_to_program(control_path("role", kRoleBus, ann), "dance"));
   ASSERT_TRUE(send_role(kRoleBus, ann, DanceRole::kEither));
   (*poller)->add_timer(mono_now() + Duration::s(5), [&](MonoTime) {
     (*poller)->stop();

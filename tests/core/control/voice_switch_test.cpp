@@ -22,7 +22,7 @@ TEST(VoiceSwitch, DeliversOnAndOffAndIgnoresOtherLines) {
   EXPECT_FALSE(send_voice_switch(kSwitchBus, bob, true));
   ASSERT_TRUE(send_voice_switch(kSwitchBus, ann, true));
   for (const char* line : {"", "On", "on ", "off\n", "onoff", "\x01"})
-    ASSERT_TRUE(tell_program(control_path("voice-switch", kSwitchBus, ann), line));
+    ASSERT_TRUE(send_to_program(control_path("voice-switch", kSwitchBus, ann), line));
   ASSERT_TRUE(send_voice_switch(kSwitchBus, ann, false));
   const MonoTime end = mono_now() + Duration::s(20);
   while (switched.size() < 2 && mono_now() < end) (*poller)->run_once(Duration::ms(20));

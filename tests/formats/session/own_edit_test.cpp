@@ -1,5 +1,5 @@
-// Edits of a house file by the dance panel: the house reads the new values, and the rest of the file
-// stays as it was.
+// Edits of a house file by the dance panel: the house reads the new values, and the rest of the
+// file stays as it was.
 #include "formats/session/own_edit.h"
 
 #include <gtest/gtest.h>

@@ -83,7 +83,7 @@ TEST(ClusterRooms, AServerHearsOnlyWhomItsLinksWant) {
   House& carla = cluster[1].add("carla");
   cluster.run(Duration::ms(300));
   EXPECT_TRUE(cluster[1].listens_to("dance.1.pose.salsa.alice"));
-  carla.link->say_goodbye();
+  carla.link->send_goodbye();
   carla.is_running = false;
   cluster.run(Duration::ms(300));
   EXPECT_FALSE(cluster[1].listens_to("dance.1.pose.salsa.alice"));
@@ -129,7 +129,7 @@ TEST(ClusterRooms, AGuestWhoLeavesLeavesEverywhere) {
   House& b = cluster[1].add("bob");
   cluster.run(Duration::ms(300));
   ASSERT_TRUE(b.saw("+alice"));
-  a.link->say_goodbye();
+  a.link->send_goodbye();
   a.is_running = false;
   cluster.run(Duration::ms(200));
   EXPECT_TRUE(b.saw("-alice"));
@@ -146,7 +146,7 @@ TEST(ClusterRooms, ARoomThatEmptiesLeavesNothingBehind) {
   cluster.run(Duration::ms(200));
   EXPECT_FALSE(cluster.values.empty());
   for (House* house : {&a, &b}) {
-    house->link->say_goodbye();
+    house->link->send_goodbye();
     house->is_running = false;
     cluster.run(Duration::ms(200));
   }
@@ -212,7 +212,7 @@ TEST(ClusterRooms, AHostAtAnyServerAloneSetsWhatAllShare) {
   EXPECT_EQ(b.refused.front(), "scene not allowed");
   EXPECT_EQ(host.scene->second.name, scene_named("terrace").name);
   // When she has gone anybody may.
-  host.link->say_goodbye();
+  host.link->send_goodbye();
   host.is_running = false;
   cluster.run(Duration::ms(300));
   b.link->send(guest("bob"), scene_named("attic"), cluster.now());
@@ -233,7 +233,7 @@ TEST(ClusterRooms, WhoFindsNoPlaceGetsOneWhenSomebodyLeaves) {
   EXPECT_LE(room->guest_count, wire::kMaxGuestsPerRoom);
   EXPECT_GE(room->guest_count, wire::kMaxGuestsPerRoom - 3);
   for (std::size_t i = 0; i < 30; ++i) {
-    houses[i]->link->say_goodbye();
+    houses[i]->link->send_goodbye();
     houses[i]->is_running = false;
   }
   cluster.run(Duration::s(3));

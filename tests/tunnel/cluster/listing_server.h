@@ -49,8 +49,8 @@ class ListingServer {
     core_.set_other_servers(servers);
     socket_.flush();
   }
-  void say_goodbye() {
-    core_.say_goodbye();
+  void send_goodbye() {
+    core_.send_goodbye();
     socket_.flush();
   }
   void tick(MonoTime now) {

@@ -59,7 +59,7 @@ class LyingServer : public ::testing::Test {
   }
   // The link lapses, and dances on at the liar's.
   bool survives_goodbye() {
-    liar->say_goodbye();
+    liar->send_goodbye();
     if (!dance_until([&] { return !link->is_connected(); })) {
       ADD_FAILURE() << "the link takes no notice of the goodbye";
       return false;
@@ -128,12 +128,12 @@ TEST_F(LyingServer, AnHonestListStillHandsALinkOnAndBack) {
   liar->list({other});
   honest->list({Address::loopback(1)});  // not the way back
   ASSERT_TRUE(dance_until([&] { return honest->datagrams() > 0; })) << "the probe";
-  liar->say_goodbye();
+  liar->send_goodbye();
   liar.reset();
   ASSERT_TRUE(dance_until([&] { return honest->poses() >= 20; }));
   EXPECT_EQ(link->server(), other);
   liar = std::make_unique<ListingServer>(home, identity, keys, *poller);
-  honest->say_goodbye();
+  honest->send_goodbye();
   honest.reset();
   ASSERT_TRUE(dance_until([&] { return liar->poses() >= 20; }));
   EXPECT_EQ(link->server(), home);

@@ -31,7 +31,7 @@ TEST(KeyQuota, OneKeyCannotTakeEverySession) {
   tunnel.run(Duration::ms(200));
   EXPECT_TRUE(alice.link->is_connected());
   // A session that ends makes room for another of the same key.
-  of_mallory[0]->link->say_goodbye();
+  of_mallory[0]->link->send_goodbye();
   of_mallory[0]->is_running = false;
   tunnel.run(Duration::s(2));
   EXPECT_EQ(connected({of_mallory.begin() + 1, of_mallory.end()}), ServerLimits().sessions_per_key);

@@ -150,7 +150,7 @@ TEST_F(Files, ASenderThatBeginsAnewGoesOn) {
   tunnel.run(Duration::ms(200));
   fetch_all(file);
   tunnel.run(Duration::ms(400));
-  alice->link->say_goodbye();
+  alice->link->send_goodbye();
   tunnel.run(Duration::s(1));
   tunnel.start_link(*alice, "salsa", {"alice"});
   tunnel.run(Duration::ms(500));
@@ -217,7 +217,7 @@ TEST_F(Files, AreForgottenWithTheirGuestAndRoom) {
   run_until_all_have(file, Duration::s(5));
   EXPECT_EQ(tunnel.server().files().count(), 1u);
   EXPECT_EQ(tunnel.server().files().size_bytes(), file.size());
-  alice->link->say_goodbye();
+  alice->link->send_goodbye();
   tunnel.run(Duration::s(1));
   EXPECT_EQ(tunnel.server().files().count(), 0u);
   EXPECT_EQ(tunnel.server().files().size_bytes(), 0u);

@@ -35,7 +35,7 @@ TEST_F(RemovalBus, IgnoresRequestsOnTheBusAndRequestsOfGuests) {
 }
 
 TEST_F(RemovalBus, ReportsAServersGoodbyeAsAClosedRoom) {
-  server_->say_goodbye();
+  server_->send_goodbye();
   server_.reset();
   ASSERT_TRUE(turn_until([&] { return bob_->status.trouble == HouseLinkTrouble::kClosed; }));
   EXPECT_EQ(bob_->status.state, HouseLinkState::kLapsed);

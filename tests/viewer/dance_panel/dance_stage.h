@@ -63,7 +63,7 @@ class DanceStage : public OffscreenTest {
       band_asked_.emplace_back(request, style);
       return {};
     };
-    needs.music.tell_speed = [this](double speed) -> Result<void> {
+    needs.music.send_speed = [this](double speed) -> Result<void> {
       speeds_told_.push_back(speed);
       return {};
     };
@@ -72,7 +72,8 @@ class DanceStage : public OffscreenTest {
       roles_sent_.push_back(std::string(guest.view()) + ": " + std::string(role));
       return {};
     };
-    needs.tell_voice = [this](const GuestId& guest, std::string_view command) -> Result<void> {
+    needs.send_voice_command = [this](const GuestId& guest,
+                                      std::string_view command) -> Result<void> {
       told_.push_back(std::string(guest.view()) + ": " + std::string(command));
       return {};
     };

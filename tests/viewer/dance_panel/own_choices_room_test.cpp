@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "tests/apps/bus_programs.h"
-#include "viewer/dance_panel/own/figure_desk.h"
+#include "viewer/dance_panel/own/figure_controller.h"
 #include "viewer/feed/stage_feed.h"
 
 namespace dance {
@@ -28,7 +28,7 @@ class OwnChoicesInARoom : public BusPrograms {
     start("dance-join",
           {kOwnServer, "--room", "salsa", "--guest", guest, "--bus", bus, "--no-view"});
   }
-  bool change_figure(FigureDesk& desk, const OwnFigure& figure) {
+  bool change_figure(FigureController& desk, const OwnFigure& figure) {
     desk.choose(*GuestId::parse("alice"), figure);
     return wait_for([&] {
       desk.work();
@@ -47,10 +47,10 @@ TEST_F(OwnChoicesInARoom, NameAndFigureArriveInTheOtherHouse) {
   options.bus_url = kBus;
   auto window = StageFeed::create(options);
   ASSERT_TRUE(window) << window.error().what;
-  FigureDesk::Needs needs;
+  FigureController::Needs needs;
   needs.program = bin("dance-avatar");
   needs.bus = kBus;
-  FigureDesk desk(needs);
+  FigureController desk(needs);
   const auto rename = [&](const char* name) {
     (*window)->dance().rename(alice, *parse_shown_name(name));
     (*window)->wake();

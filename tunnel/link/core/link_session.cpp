@@ -277,7 +277,7 @@ bool LinkSession::on_pong(wire::Bytes body, MonoTime received) {
                           pong->server_send_us, received});
 }
 
-void LinkSession::say_goodbye() {
+void LinkSession::send_goodbye() {
   if (!is_welcome_) return;
   std::array<std::uint8_t, wire::kSessionHeader> out;
   link_.send({out.data(), wire::build_bare(wire::Type::kGoodbye, out)});

@@ -24,7 +24,7 @@ class LinkSession {
   void on_unsealed(MonoTime now);
   void on_moved(MonoTime now);
   void on_goodbye(MonoTime now);
-  void say_goodbye();
+  void send_goodbye();
 
   MonoTime next_deadline() const;
   // Evicts guests who fell silent, notices a server that did, asks again for who was refused.

@@ -288,7 +288,7 @@ Result<void> run_server(const ServerProgramOptions& options) {
   poller->run();
 
   watch->say_stopping();
-  server->say_goodbye();
+  server->send_goodbye();
   if (cluster) cluster->flush();
   const auto report = summary(*server, mono_now() - begin);
   if (options.json)

@@ -16,7 +16,7 @@
 #include "core/bus/state_messages.h"
 #include "viewer/chat/line_editor.h"
 #include "viewer/dance_panel/dance_records.h"
-#include "viewer/dance_panel/own/figure_desk.h"
+#include "viewer/dance_panel/own/figure_controller.h"
 #include "viewer/dance_panel/panel_controls.h"
 #include "viewer/words/texts.h"
 
@@ -26,7 +26,7 @@ struct OwnNeeds {
   // Each one that is not set is not offered.
   std::function<void(const GuestId&, const ShownName&)> rename = {};
   std::function<Result<void>(const GuestId&, std::string_view name)> keep_name = {};
-  FigureDesk::Needs figures = {};
+  FigureController::Needs figures = {};
   // A house of this user can turn the voice of that guest on and off.
   std::function<bool(const GuestId&)> has_voice_switch = {};
   std::function<Result<void>(const GuestId&, bool is_on)> switch_voice = {};
@@ -67,7 +67,7 @@ class OwnChoices {
 
   OwnNeeds needs_;
   Texts texts_;
-  FigureDesk figures_;
+  FigureController figures_;
   Open open_ = Open::kNone;
   GuestId guest_;  // whose choices are open
   std::vector<NamedFigure> listed_;

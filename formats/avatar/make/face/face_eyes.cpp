@@ -20,8 +20,8 @@ constexpr std::array<const char*, 7> kLidMorphs{"blinkLeft", "blinkRight", "happ
 
 float sign_of(std::size_t side) { return side == 0 ? 1.0f : -1.0f; }
 
-Sheet sheet_of(const std::vector<Vector3f>& at_rest,
-               const std::map<std::string, std::vector<Vector3f>>& shapes) {
+Sheet build_sheet(const std::vector<Vector3f>& at_rest,
+                  const std::map<std::string, std::vector<Vector3f>>& shapes) {
   Sheet sheet = points_of(at_rest, kHeadJoint);
   sheet.shapes = shapes;
   return sheet;
@@ -198,7 +198,7 @@ Sheet FaceMaker::lids() const {
       std::map<std::string, std::vector<Vector3f>> shapes;
       for (const char* morph : kLidMorphs)
         shapes[morph] = lid_places(eye, lids_of(morph, eye), upper);
-      Sheet lid = sheet_of(lid_places(eye, lids_at_rest(), upper), shapes);
+      Sheet lid = build_sheet(lid_places(eye, lids_at_rest(), upper), shapes);
       join_rows(lid, 0, kLidRows, kLidColumns, RowEnds::kOpen);
       set_normals(lid);
       if (!upper) light_as_cheek(lid);
@@ -212,7 +212,7 @@ Sheet FaceMaker::lashes() const {
   for (std::size_t eye = 0; eye < 2; ++eye) {
     std::map<std::string, std::vector<Vector3f>> shapes;
     for (const char* morph : kLidMorphs) shapes[morph] = lash_places(eye, lids_of(morph, eye));
-    Sheet lash = sheet_of(lash_places(eye, lids_at_rest()), shapes);
+    Sheet lash = build_sheet(lash_places(eye, lids_at_rest()), shapes);
     join_rows(lash, 0, 3, kLidColumns, RowEnds::kOpen);
     set_normals(lash);
     add_to(sheet, lash);
@@ -251,7 +251,7 @@ Sheet FaceMaker::brows() const {
   for (std::size_t side = 0; side < 2; ++side) {
     std::map<std::string, std::vector<Vector3f>> shapes;
     for (const auto& [name, move] : moves) shapes[name] = brow_places(side, move);
-    Sheet brow = sheet_of(brow_places(side, {}), shapes);
+    Sheet brow = build_sheet(brow_places(side, {}), shapes);
     join_rows(brow, 0, 3, 8, RowEnds::kOpen);
     set_normals(brow);
     add_to(sheet, brow);

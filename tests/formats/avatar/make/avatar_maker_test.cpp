@@ -119,7 +119,7 @@ TEST(AvatarMaker, SimplifiedLayersAreClosed) {
   const BentFigure figure(skeleton);
   const AvatarDesign design = *find_design("marisol");
   for (const FigureLayer& layer : FigureBuilder(skeleton, design.look, true).take_body()) {
-    const Sheet sheet = figure.sheet_of(layer, 500);
+    const Sheet sheet = figure.build_sheet(layer, 500);
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
     for (std::size_t t = 0; t < sheet.triangles.size(); t += 3)
       for (std::size_t k = 0; k < 3; ++k)

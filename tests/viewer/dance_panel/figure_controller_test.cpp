@@ -1,6 +1,6 @@
 // Changing a figure by a program beside the window: what it is asked, what is kept, and what is
 // said when it fails.
-#include "viewer/dance_panel/own/figure_desk.h"
+#include "viewer/dance_panel/own/figure_controller.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 namespace dance {
 namespace {
 
-class FigureDeskTest : public ::testing::Test {
+class FigureControllerTest : public ::testing::Test {
  protected:
   // Writes its arguments into a file, one line for each start.
   void write_program(const std::string& more) {
@@ -23,9 +23,9 @@ class FigureDeskTest : public ::testing::Test {
     std::ofstream(path) << "#!/bin/sh\necho \"$*\" >>'" << folder_.path("asked") << "'\n" << more;
     std::filesystem::permissions(path, std::filesystem::perms::owner_all);
   }
-  FigureDesk open(const std::string& more) {
+  FigureController open(const std::string& more) {
     write_program(more);
-    FigureDesk::Needs needs;
+    FigureController::Needs needs;
     needs.program = folder_.path("choose");
     needs.bus = "memq://";
     needs.current = [](const GuestId&) {
@@ -38,9 +38,9 @@ class FigureDeskTest : public ::testing::Test {
       kept_.emplace_back(guest.view(), figure);
       return {};
     };
-    return FigureDesk(std::move(needs));
+    return FigureController(std::move(needs));
   }
-  static bool work_until_done(FigureDesk& desk) {
+  static bool work_until_done(FigureController& desk) {
     const MonoTime end = mono_now() + Duration::s(60);
     while (desk.is_busy() && mono_now() < end) {
       desk.work();
@@ -60,8 +60,8 @@ class FigureDeskTest : public ::testing::Test {
   const GuestId alice_ = *GuestId::parse("alice");
 };
 
-TEST_F(FigureDeskTest, AsksTheHouseAndThenKeepsTheChoice) {
-  FigureDesk desk = open("");
+TEST_F(FigureControllerTest, AsksTheHouseAndThenKeepsTheChoice) {
+  FigureController desk = open("");
   OwnFigure figure;
   figure.what = "/my figures/me.vrm";
   desk.choose(alice_, figure);
@@ -74,9 +74,9 @@ TEST_F(FigureDeskTest, AsksTheHouseAndThenKeepsTheChoice) {
   EXPECT_EQ(kept_[0].second.height, 1.25);
 }
 
-TEST_F(FigureDeskTest, OfChoicesMeanwhileTheLastCounts) {
+TEST_F(FigureControllerTest, OfChoicesMeanwhileTheLastCounts) {
   const std::string goes_on = folder_.path("goes-on");
-  FigureDesk desk = open("while [ ! -e '" + goes_on + "' ]; do sleep 0.01; done\n");
+  FigureController desk = open("while [ ! -e '" + goes_on + "' ]; do sleep 0.01; done\n");
   for (const char* name : {"teo", "tia", "ana"}) {
     OwnFigure figure;
     figure.what = name;
@@ -89,8 +89,8 @@ TEST_F(FigureDeskTest, OfChoicesMeanwhileTheLastCounts) {
   EXPECT_EQ(kept_[1].second.what, "ana");
 }
 
-TEST_F(FigureDeskTest, DrawsALookOfTheMannequinBySeed) {
-  FigureDesk desk = open("");
+TEST_F(FigureControllerTest, DrawsALookOfTheMannequinBySeed) {
+  FigureController desk = open("");
   for (const std::uint64_t seed : {1u, 1u, 2u}) {
     desk.choose_any_look(alice_, seed);
     ASSERT_TRUE(work_until_done(desk));
@@ -101,8 +101,8 @@ TEST_F(FigureDeskTest, DrawsALookOfTheMannequinBySeed) {
   EXPECT_NE(asked().find("choose alice mannequin --look="), std::string::npos) << asked();
 }
 
-TEST_F(FigureDeskTest, SaysInOneLineWhyAFigureIsRefusedAndKeepsNothing) {
-  FigureDesk desk = open("echo 'first' >&2; printf 'no \\033[31m avatar\\n' >&2; exit 1\n");
+TEST_F(FigureControllerTest, SaysInOneLineWhyAFigureIsRefusedAndKeepsNothing) {
+  FigureController desk = open("echo 'first' >&2; printf 'no \\033[31m avatar\\n' >&2; exit 1\n");
   desk.choose(alice_, OwnFigure());
   ASSERT_TRUE(work_until_done(desk));
   EXPECT_TRUE(kept_.empty());

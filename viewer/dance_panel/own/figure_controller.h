@@ -1,4 +1,4 @@
-// FigureDesk: changes the figure of a guest of this house during the dance, by `dance avatar
+// FigureController: changes the figure of a guest of this house during the dance, by `dance avatar
 // choose`: the file is read and checked in that program, and no picture waits for it. The house
 // takes the choice over its socket and publishes it to the room. The house file keeps it.
 //
@@ -26,7 +26,7 @@ struct NamedFigure {
   std::string name;  // "" = a stored file whose name is not known
 };
 
-class FigureDesk {
+class FigureController {
  public:
   struct Needs {
     std::string program;  // of dance-avatar; "" = figures cannot be changed
@@ -38,7 +38,7 @@ class FigureDesk {
     std::function<Result<void>(const GuestId&, const OwnFigure&)> keep = {};
   };
 
-  explicit FigureDesk(Needs needs) : needs_(std::move(needs)) {}
+  explicit FigureController(Needs needs) : needs_(std::move(needs)) {}
 
   bool is_there() const { return !needs_.program.empty(); }
   std::vector<NamedFigure> list() const;

@@ -1,4 +1,4 @@
-#include "viewer/dance_panel/own/figure_desk.h"
+#include "viewer/dance_panel/own/figure_controller.h"
 
 #include <fmt/format.h>
 
@@ -27,11 +27,11 @@ std::string newest_line(std::string_view said) {
 
 }  // namespace
 
-std::vector<NamedFigure> FigureDesk::list() const {
+std::vector<NamedFigure> FigureController::list() const {
   return needs_.list ? needs_.list() : std::vector<NamedFigure>();
 }
 
-void FigureDesk::choose(const GuestId& guest, OwnFigure figure) {
+void FigureController::choose(const GuestId& guest, OwnFigure figure) {
   if (needs_.current) figure.height = needs_.current(guest).height;
   trouble_.clear();
   if (program_)
@@ -40,7 +40,7 @@ void FigureDesk::choose(const GuestId& guest, OwnFigure figure) {
     start({guest, std::move(figure)});
 }
 
-void FigureDesk::choose_any_look(const GuestId& guest, std::uint64_t seed) {
+void FigureController::choose_any_look(const GuestId& guest, std::uint64_t seed) {
   const RandomLook random = random_look(look_of(guest), seed);
   OwnFigure figure;
   figure.look = name_of_look(random.look);
@@ -48,7 +48,7 @@ void FigureDesk::choose_any_look(const GuestId& guest, std::uint64_t seed) {
   choose(guest, std::move(figure));
 }
 
-void FigureDesk::start(Choice choice) {
+void FigureController::start(Choice choice) {
   const OwnFigure& figure = choice.figure;
   words_.clear();
   auto pipe = ChildPipe::open();
@@ -78,7 +78,7 @@ void FigureDesk::start(Choice choice) {
   under_way_ = std::move(choice);
 }
 
-void FigureDesk::read_words() {
+void FigureController::read_words() {
   std::array<char, 512> some{};
   for (int i = 0; i < 8; ++i) {
     const std::size_t size = said_.read(some).value_or(0);
@@ -88,7 +88,7 @@ void FigureDesk::read_words() {
   }
 }
 
-void FigureDesk::work() {
+void FigureController::work() {
   if (!program_) return;
   read_words();
   if (!program_->has_ended()) return;
