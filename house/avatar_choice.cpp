@@ -75,16 +75,6 @@ Result<std::array<float, 3>> parse_colour(const std::string& text) {
   return std::array<float, 3>{linear.x(), linear.y(), linear.z()};
 }
 
-std::vector<std::string> shipped_avatars(const std::string& shipped_folder) {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (const fs::directory_entry& it : fs::directory_iterator(shipped_folder, error))
-    if (it.path().extension() == ".vrm" && AvatarName::parse(it.path().stem().string()))
-      names.push_back(it.path().stem().string());
-  std::ranges::sort(names);
-  return names;
-}
-
 Result<ChosenAvatar> choose_avatar(const AvatarChoice& choice, const AvatarStore& store,
                                    const std::string& shipped_folder) {
   ChosenAvatar chosen;

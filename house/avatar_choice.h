@@ -40,9 +40,6 @@ Result<ChosenAvatar> choose_avatar(const AvatarChoice& choice, const AvatarStore
 // "#e04080", as a screen shows it → linear RGB.
 Result<std::array<float, 3>> parse_colour(const std::string& text);
 
-// The names in that folder.
-std::vector<std::string> shipped_avatars(const std::string& shipped_folder);
-
 // "alice=me.vrm" → alice and me.vrm; without a guest before '=' the whole text, and no guest.
 struct AvatarOfGuest {
   GuestId guest;

@@ -8,6 +8,7 @@
 #include "core/net/mono_clock.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
+#include "core/store/folder_entries.h"
 #include "testing/line/line_options.h"
 
 namespace dance {
@@ -39,7 +40,7 @@ bool is_viewer_picture(const std::string& name) {
 std::vector<std::string> pictures_in(const std::string& folder) {
   std::vector<std::string> pictures;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error))
+  for (const auto& entry : folder_entries(folder, error))
     if (is_viewer_picture(entry.path().filename().string()))
       pictures.push_back(entry.path().string());
   std::sort(pictures.begin(), pictures.end());

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "core/store/folder_entries.h"
 #include "formats/avatar/avatar_reader.h"
 
 namespace dance {
@@ -48,7 +49,7 @@ bool register_files() {
   std::error_code none;
   if (!folder || !std::filesystem::is_directory(folder, none)) return false;
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+  for (const auto& entry : folder_entries(folder, none))
     if (entry.path().extension() == ".glb" || entry.path().extension() == ".vrm")
       files.push_back(entry.path());
   std::sort(files.begin(), files.end());

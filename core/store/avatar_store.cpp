@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/store/folder_entries.h"
 #include "core/store/sha256.h"
 
 namespace dance {
@@ -223,7 +224,7 @@ Result<void> AvatarStore::make_room(std::size_t bytes) const {
   std::vector<Entry> entries;
   std::size_t sum = bytes;
   std::error_code error;
-  for (const fs::directory_entry& it : fs::directory_iterator(foreign_, error)) {
+  for (const fs::directory_entry& it : folder_entries(foreign_, error)) {
     if (!it.is_regular_file(error)) continue;
     entries.push_back({it.path(), it.file_size(error), it.last_write_time(error)});
     sum += entries.back().size;
@@ -267,7 +268,7 @@ std::vector<StoredAvatar> AvatarStore::list() const {
   std::vector<StoredAvatar> all;
   std::error_code error;
   for (const auto& [folder, is_own] : {std::pair(own_, true), std::pair(foreign_, false)}) {
-    for (const fs::directory_entry& it : fs::directory_iterator(folder, error)) {
+    for (const fs::directory_entry& it : folder_entries(folder, error)) {
       const auto hash = parse_file_hash(it.path().stem().string());
       const std::string ending = it.path().extension().string();
       if (!hash || std::ranges::find(kEndings, ending) == kEndings.end() || it.is_symlink(error) ||
@@ -278,6 +279,16 @@ std::vector<StoredAvatar> AvatarStore::list() const {
   }
   std::ranges::sort(all, {}, &StoredAvatar::path);
   return all;
+}
+
+std::vector<std::string> shipped_avatars(const std::string& shipped_folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const fs::directory_entry& it : folder_entries(shipped_folder, error))
+    if (it.path().extension() == ".vrm" && GuestId::parse(it.path().stem().string()))
+      names.push_back(it.path().stem().string());
+  std::ranges::sort(names);
+  return names;
 }
 
 }  // namespace dance

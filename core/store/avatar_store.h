@@ -79,4 +79,7 @@ class AvatarStore {
   std::size_t most_foreign_bytes_;
 };
 
+// Names of the avatars that are installed with the programs, in their order.
+std::vector<std::string> shipped_avatars(const std::string& shipped_folder);
+
 }  // namespace dance

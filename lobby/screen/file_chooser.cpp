@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "core/base/music/music_file_name.h"
+
 namespace dance {
 namespace {
 
@@ -35,7 +37,7 @@ bool is_file_for(ChooserPurpose purpose, std::string_view name) {
     case ChooserPurpose::kTeacher:
       return ends({".bvh", ".bvh.xz", ".glb", ".gltf", ".vrma", ".lcm"});
     case ChooserPurpose::kMusic:
-      return ends({".ogg", ".opus", ".flac", ".wav", ".mp3", ".m4a", ".aac"});
+      return has_music_ending(std::string(name));
     case ChooserPurpose::kAvatar:
       return ends({".vrm", ".glb"});
     case ChooserPurpose::kVideo:

@@ -9,9 +9,8 @@
 
 namespace dance {
 
-constexpr std::size_t kMostSongsInFolder = 10000;
+constexpr std::size_t kMostSongsInFolder = 10000;  // entries of its folder
 
-bool is_music_file(const std::string& path);
 // Those after `path` in the order of their names, then those before it, then itself.
 std::vector<std::string> songs_after(const std::string& path);
 

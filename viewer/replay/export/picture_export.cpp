@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "core/store/folder_entries.h"
 #include "viewer/replay/export/export_source.h"
 #include "viewer/replay/export/video_file.h"
 #include "viewer/replay/sound/sound_track.h"
@@ -53,7 +54,7 @@ class PictureExport : public ReplayExport {
     if (error)
       return fail("--export " + wish_.path + " cannot be made: " + error.message() +
                   "; choose another folder");
-    for (const auto& file : std::filesystem::directory_iterator(wish_.path, error))
+    for (const auto& file : folder_entries(wish_.path, error))
       if (is_numbered(file.path().filename().string()))
         return fail(file.path().string() +
                     ": is there already, of another export; remove it or choose another folder");
